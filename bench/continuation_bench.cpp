@@ -78,8 +78,8 @@ void BranchBySlopes(benchmark::State& state) {
 }
 BENCHMARK(BranchBySlopes)->Unit(benchmark::kMillisecond);
 
-/// Shooting as it is done without tangents: RK4, 1000 steps a revolution, a column of the tangent from
-/// each of 8 starts moved aside.
+/// Shooting as it is done without tangents: RK4, 1000 steps a revolution, a column of the tangent
+/// from each of 8 starts moved aside.
 Flow differences(const std::shared_ptr<const Scene>& scene) {
   Flow flow = flow_of(scene, *scene);
   flow.go = [scene, scale = flow.scale](std::span<const Vec> starts, long revolutions,

@@ -1,8 +1,9 @@
 // How often the largest exponent of a motion is as near to its limit as is said: motions of random
-// rotors that are no proven orbits, averaged over T revolutions and over far more. Chaos that ends in
-// a regular motion meanwhile has no limit of its own, and is counted apart.
+// rotors that are no proven orbits, averaged over T revolutions and over far more. Chaos that ends
+// in a regular motion meanwhile has no limit of its own, and is counted apart.
 //
-//   whirl_exponent_coverage [motions] [revolutions of the limit]    prints the table of docs/validation.md
+//   whirl_exponent_coverage [motions] [revolutions of the limit]    prints the table of
+//   docs/validation.md
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// What a point of a study costs before its motion: the model at a value, assembled and reduced. As a
-// member of a family, and by reading the whole text again.
+// What a point of a study costs before its motion: the model at a value, assembled and reduced. As
+// a member of a family, and by reading the whole text again.
 
 #include <benchmark/benchmark.h>
 

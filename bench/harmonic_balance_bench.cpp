@@ -1,4 +1,5 @@
-// Harmonic balance against shooting on every bundled model: error and time by the number of harmonics.
+// Harmonic balance against shooting on every bundled model: error and time by the number of
+// harmonics.
 //
 //   whirl_harmonic_balance           prints the table of docs/benchmarks.md
 
@@ -29,7 +30,8 @@ struct Case {
   std::vector<std::string> sets;
 };
 
-// where the motion that a model settles to does not repeat, one that does: without contact, or at rest
+// where the motion that a model settles to does not repeat, one that does: without contact, or at
+// rest
 const Case cases[] = {
     {"jeffcott", "no contact"},
     {"overhung_disk", "no contact"},

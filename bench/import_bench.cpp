@@ -21,7 +21,8 @@ std::string list(int rows, double first, double step) {
   return text + "]";
 }
 
-/// 54 elements between 55 nodes, 37 layers on them, 12 seals and two bearings by tables of ten speeds.
+/// 54 elements between 55 nodes, 37 layers on them, 12 seals and two bearings by tables of ten
+/// speeds.
 std::string compressor() {
   std::string text = R"({"ross_version": "2.3.0", "parameters": {})";
   const auto element = [&](int number, int node, double inner, double outer) {

@@ -1,5 +1,6 @@
-// The published two-disk rotor on two oil films with rubs at both disks, 460 rad/s, one impact of each
-// disk a revolution: time of a revolution, and the error after five against quadruple precision.
+// The published two-disk rotor on two oil films with rubs at both disks, 460 rad/s, one impact of
+// each disk a revolution: time of a revolution, and the error after five against quadruple
+// precision.
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // What handing out pieces costs: mpirun -n 2 build/release/bin/whirl_ranks BYTES PIECES
 //
-// Pieces of one point that cost nothing, with a row of so many bytes, all computed in the other ranks;
-// prints how many come back to the leader in a second.
+// Pieces of one point that cost nothing, with a row of so many bytes, all computed in the other
+// ranks; prints how many come back to the leader in a second.
 
 #include <fmt/format.h>
 

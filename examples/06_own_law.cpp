@@ -1,6 +1,7 @@
 // A contact law of one's own, with no change of whirl: a ring with a layer that stiffens. The laws
 // that whirl integrates by itself are a closed list (libcontact/laws.hpp); any other law needs an
-// integration of its own, and whatever takes a flow map then takes it: orbits, multipliers, branches.
+// integration of its own, and whatever takes a flow map then takes it: orbits, multipliers,
+// branches.
 //
 //   06_own_law models/jeffcott_stator.toml
 

@@ -11,8 +11,9 @@ namespace whirl::inline base {
 /// Why something failed, in one sentence for people; nothing where it did not.
 ///
 /// A result whose parts are worth keeping says by such a member that it failed. Wrong input throws
-/// (ModelError), and so does failed mathematics that leaves nothing to return (NumericalError). What
-/// programs decide by is an enumeration beside it (Outcome, BranchEnd); no sentence is ever compared.
+/// (ModelError), and so does failed mathematics that leaves nothing to return (NumericalError).
+/// What programs decide by is an enumeration beside it (Outcome, BranchEnd); no sentence is ever
+/// compared.
 class Failure {
  public:
   Failure() = default;

@@ -6,13 +6,14 @@
 
 namespace whirl::inline contact {
 
-/// A blade that a force of 1 N along the circumference bends at its tip: y = sum_{p=2}^6 a_p (x / l)^p.
+/// A blade that a force of 1 N along the circumference bends at its tip: y = sum_{p=2}^6 a_p (x /
+/// l)^p.
 ///
 ///   E I y'''' - Omega^2 ((T y')' + A rho y) = 0,   -E I y'''(l) = 1
 ///   T(x) = A rho int_x^l (R - l + s) ds
 ///
-/// for a cantilever of length l whose tip is at R, stiffened by its centrifugal tension and softened by
-/// what of the centrifugal force is along the circumference.
+/// for a cantilever of length l whose tip is at R, stiffened by its centrifugal tension and
+/// softened by what of the centrifugal force is along the circumference.
 ///
 /// @source [Blevins1979], ch. 8; assumed modes by the potential energy of beam and tension
 struct BentBlade {

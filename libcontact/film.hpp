@@ -16,9 +16,9 @@
 ///   a = Omega x - 2 y',   b = Omega y + 2 x'
 ///
 /// and Omega is zero if the oil is not dragged. Rates have a dimension, so that nothing is singular
-/// without spin. `force` grows in proportion to (a, b), is written once for any number type (doubles,
-/// packs, Taylor series; `sqrt` and `arc_cotangent` are found by their arguments) and is no number
-/// where x^2 + y^2 >= 1.
+/// without spin. `force` grows in proportion to (a, b), is written once for any number type
+/// (doubles, packs, Taylor series; `sqrt` and `arc_cotangent` are found by their arguments) and is
+/// no number where x^2 + y^2 >= 1.
 
 #include <cmath>
 #include <tuple>

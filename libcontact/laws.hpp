@@ -29,8 +29,8 @@ inline bool is_continuous(const AnyContactLaw<>& law) {
   return std::visit([](const auto& l) { return l.is_continuous(); }, law);
 }
 
-/// The factor that a rate [m/s] gives a force which vanishes with the depth, below zero where it would
-/// pull; nothing of a law that is not damped like this.
+/// The factor that a rate [m/s] gives a force which vanishes with the depth, below zero where it
+/// would pull; nothing of a law that is not damped like this.
 inline std::optional<double> rate_factor(const AnyContactLaw<>& law, double rate) {
   return std::visit(
       [&](const auto& l) -> std::optional<double> {

@@ -31,8 +31,8 @@ int size_of(const std::string& bytes) {
 
 }  // namespace
 
-/// Letters are tagged by their kinds. Those on their way are kept until MPI has them: sending never waits,
-/// so that two ranks whose letters are long cannot wait for each other.
+/// Letters are tagged by their kinds. Those on their way are kept until MPI has them: sending never
+/// waits, so that two ranks whose letters are long cannot wait for each other.
 struct MpiProcess::Letters {
   struct Sent {
     MPI_Request request = MPI_REQUEST_NULL;

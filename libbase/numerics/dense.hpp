@@ -1,6 +1,6 @@
 #pragma once
-/// Dense decompositions by Eigen, compiled once: its templates take seconds in every file that names
-/// them.
+/// Dense decompositions by Eigen, compiled once: its templates take seconds in every file that
+/// names them.
 
 #include <memory>
 #include <optional>

@@ -9,8 +9,9 @@ namespace whirl::inline base {
 
 namespace {
 
-/// K x = lambda M x as C y = lambda y with C = L^-1 K L^-H, M = L L^H, x = L^-H y: the operations of
-/// Eigen's GeneralizedSelfAdjointEigenSolver, which compiles its other two problems with this one.
+/// K x = lambda M x as C y = lambda y with C = L^-1 K L^-H, M = L L^H, x = L^-H y: the operations
+/// of Eigen's GeneralizedSelfAdjointEigenSolver, which compiles its other two problems with this
+/// one.
 template <class Matrix>
 std::optional<SymmetricModes<Matrix>> generalized(const Matrix& K, const Matrix& M) {
   const Eigen::LLT<Matrix> cholesky(M);

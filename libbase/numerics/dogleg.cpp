@@ -11,14 +11,15 @@ namespace whirl::inline base {
 
 namespace {
 
-/// Tells which steps to take: those by which the cost falls as predicted, from the last place or from an
-/// earlier one that several steps lead away from.
+/// Tells which steps to take: those by which the cost falls as predicted, from the last place or
+/// from an earlier one that several steps lead away from.
 class Acceptance {
  public:
   Acceptance(double cost, int most_uphill)
       : most_uphill_(most_uphill), current_(cost), least_(cost), reference_(cost), worst_(cost) {}
 
-  /// Decrease of the cost over the one that is predicted, by one step or by all since the reference.
+  /// Decrease of the cost over the one that is predicted, by one step or by all since the
+  /// reference.
   double quality(double cost, double predicted) const {
     return std::max((current_ - cost) / predicted,
                     (reference_ - cost) / (since_reference_ + predicted));

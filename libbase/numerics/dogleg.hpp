@@ -21,7 +21,8 @@ struct DoglegOptions {
   int most_iterations = 100;
   double cost_tolerance = 1e-6;  ///< relative change of the cost in a step that is the last
   double step_tolerance = 1e-9;  ///< length of a step, over that of x, that is the last
-  /// Steps in a row that may increase the cost: narrow bent valleys are crossed instead of followed.
+  /// Steps in a row that may increase the cost: narrow bent valleys are crossed instead of
+  /// followed.
   int most_uphill_steps = 5;
   std::function<bool()> is_stopped{};
 };
@@ -40,14 +41,14 @@ struct DoglegResult {
   DoglegEnd end = DoglegEnd::undefined;
 };
 
-/// Searches from x on. Each step is the Gauss-Newton step if that is within the trust region; else it
-/// goes from the steepest descent's minimum towards that step, as far as the region reaches.
+/// Searches from x on. Each step is the Gauss-Newton step if that is within the trust region; else
+/// it goes from the steepest descent's minimum towards that step, as far as the region reaches.
 ///
 ///   (J^T J + nu D^2) s = -J^T r,   |D s| <= radius,   D = column norms of J
 ///
-/// A variable at a bound is left out of a step where the cost falls beyond that bound; a step that would
-/// cross a bound ends there. Steps may increase the cost for a while: a step is taken if the cost falls
-/// as predicted either from the last place or from an earlier one.
+/// A variable at a bound is left out of a step where the cost falls beyond that bound; a step that
+/// would cross a bound ends there. Steps may increase the cost for a while: a step is taken if the
+/// cost falls as predicted either from the last place or from an earlier one.
 ///
 /// @param x  start, within bounds
 /// @throws Interrupted  where somebody asks for it (libbase/system/interruption.hpp)

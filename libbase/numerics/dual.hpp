@@ -1,5 +1,6 @@
 #pragma once
-/// Numbers that carry their derivatives: a function called with them gives its slopes with its value.
+/// Numbers that carry their derivatives: a function called with them gives its slopes with its
+/// value.
 
 #include <Eigen/Core>
 #include <cmath>

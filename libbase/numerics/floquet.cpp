@@ -35,7 +35,8 @@ CVec multipliers_of(std::span<const Mat> tangents) {
   for (const Complex& root : roots) powers.push_back(std::pow(root, static_cast<int>(m)));
   std::sort(powers.begin(), powers.end(),
             [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
-  // every multiplier is there m times, from its m roots: those nearest to each other belong together
+  // every multiplier is there m times, from its m roots: those nearest to each other belong
+  // together
   found.resize(n);
   for (Complex& value : found) {
     const Complex first = powers.front();

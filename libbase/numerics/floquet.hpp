@@ -20,8 +20,8 @@ void sort_by_size(CVec& multipliers);
 /// @source [Kressner2005], 4.1
 CVec multipliers_of(std::span<const Mat> tangents);
 
-/// Of a motion in whose equations time does not occur: the same of one segment, without the multiplier
-/// nearest to 1, which is that along the motion.
+/// Of a motion in whose equations time does not occur: the same of one segment, without the
+/// multiplier nearest to 1, which is that along the motion.
 CVec multipliers_across(const Mat& tangent);
 
 }  // namespace whirl::inline base

@@ -7,8 +7,9 @@ namespace whirl::inline base {
 /// Dimension of the set that points lie on: 0 for a few points that repeat, 1 for a closed curve as
 /// the sections of a motion with two frequencies make it, more for a torus of three or for chaos.
 ///
-/// The number of neighbors within a distance grows as its power D:  D = ln(k_2 / k_1) over the mean of
-/// ln(T_2 / T_1), with the distances of the k_1-th and k_2-th nearest neighbors of each point, 8 and
+/// The number of neighbors within a distance grows as its power D:  D = ln(k_2 / k_1) over the mean
+/// of ln(T_2 / T_1), with the distances of the k_1-th and k_2-th nearest neighbors of each point, 8
+/// and
 /// 32. The error is some 0.1 for 400 points.
 ///
 /// @param points  one per column, at least 96; in units in which all directions count alike

@@ -23,7 +23,8 @@ inline std::optional<Vec> newton_step(const Mat& J, const Vec& r) {
   return Vec(lu.solve(r));
 }
 
-/// Whether a residual is small, or small enough and no longer falling, as rounding and events leave it.
+/// Whether a residual is small, or small enough and no longer falling, as rounding and events leave
+/// it.
 inline bool has_converged(double residual, double before, double accurate = 1e-11) {
   constexpr double reachable = 1e-8;
   return residual < accurate || (residual < reachable && residual > 0.5 * before);
@@ -65,11 +66,12 @@ struct NewtonSearch {
 
 /// Solves equations r(x) = 0 by steps dx with J(x) dx = r(x), x -> x - dx.
 ///
-/// A step that makes the residual too large is halved until it does not; where every share of it does,
-/// the best one is taken. Far from a solution this keeps the search from running away, near one whole
-/// steps converge quadratically.
+/// A step that makes the residual too large is halved until it does not; where every share of it
+/// does, the best one is taken. Far from a solution this keeps the search from running away, near
+/// one whole steps converge quadratically.
 ///
-/// @param at     where it begins and ends: any x with `double residual`, the norm of r there, infinite
+/// @param at     where it begins and ends: any x with `double residual`, the norm of r there,
+/// infinite
 ///               or NaN where r is not defined
 /// @param step   x -> J^-1 r there, as an std::optional<Vec>
 /// @param moved  (x, dx) -> x - dx with its residual

@@ -8,12 +8,13 @@ namespace whirl::inline base {
 
 /// Sizes of the pieces that points are cut into, from what they cost so far.
 ///
-/// The first piece of each thread is small, so that there is something to keep soon, whatever a point
-/// costs. Later ones take some seconds, or have as many points as fill the lanes of a batch well. None
-/// takes more than half a thread's share of what is left, down to some lanes: one point may cost thirty
-/// times as much as another, and all threads are to end at about the same time. The last ones, and few
-/// points from the start, are shared out evenly. Pieces of less would cost more than they save: at the
-/// end of each lanes stand empty, and a step of a few takes as long as one of all.
+/// The first piece of each thread is small, so that there is something to keep soon, whatever a
+/// point costs. Later ones take some seconds, or have as many points as fill the lanes of a batch
+/// well. None takes more than half a thread's share of what is left, down to some lanes: one point
+/// may cost thirty times as much as another, and all threads are to end at about the same time. The
+/// last ones, and few points from the start, are shared out evenly. Pieces of less would cost more
+/// than they save: at the end of each lanes stand empty, and a step of a few takes as long as one
+/// of all.
 class PieceSizes {
  public:
   /// @param most     points of a piece at most

@@ -1,5 +1,6 @@
 #pragma once
-/// Processes that do one piece of work together, and the letters between them, whatever carries these.
+/// Processes that do one piece of work together, and the letters between them, whatever carries
+/// these.
 
 #include <atomic>
 #include <chrono>
@@ -32,8 +33,8 @@ struct Letter {
   std::string bytes{};
 };
 
-/// A process among those that work together. Rank 0 leads: it hands out pieces, and holds the result and
-/// its file; the others compute.
+/// A process among those that work together. Rank 0 leads: it hands out pieces, and holds the
+/// result and its file; the others compute.
 ///
 /// Letters between two ranks arrive in their order. One thread of a process sends and receives.
 struct Ranks {
@@ -55,7 +56,8 @@ struct Ranks {
   std::string share(const std::function<std::string()>& make) const;
 };
 
-/// Thrown in ranks that serve once the leader has ended. It is no std::exception, as nothing is wrong.
+/// Thrown in ranks that serve once the leader has ended. It is no std::exception, as nothing is
+/// wrong.
 struct WorkIsDone {};
 
 /// A rank does not answer any more.
@@ -64,8 +66,8 @@ class LostRank : public std::runtime_error {
   LostRank(int rank, std::chrono::milliseconds silence);
 };
 
-/// How long to wait between two looks for letters: not at all while they come, then ever longer, up to
-/// some milliseconds, so that who waits needs no processor: a look takes some 30 us.
+/// How long to wait between two looks for letters: not at all while they come, then ever longer, up
+/// to some milliseconds, so that who waits needs no processor: a look takes some 30 us.
 class Patience {
  public:
   /// A letter was there.
@@ -90,8 +92,8 @@ class Silence {
   clock::duration lasts_{};
 };
 
-/// An error as bytes: a ModelError with its problems, a NumericalError, too little memory, or another
-/// one by its text.
+/// An error as bytes: a ModelError with its problems, a NumericalError, too little memory, or
+/// another one by its text.
 std::string packed_error(const std::exception_ptr& error);
 /// Throws it again in another process.
 /// @param rank  where it was met

@@ -13,9 +13,9 @@ namespace whirl::inline base {
 
 /// Rows of any size, by their number.
 ///
-/// Bytes are appended, those of a row that is set again too. Where a folder is given, the oldest ones
-/// go into a file there once all together are more than what may be in memory; it has no name, and is
-/// gone with the last copy of the store. Where it cannot be written, rows stay in memory.
+/// Bytes are appended, those of a row that is set again too. Where a folder is given, the oldest
+/// ones go into a file there once all together are more than what may be in memory; it has no name,
+/// and is gone with the last copy of the store. Where it cannot be written, rows stay in memory.
 ///
 /// Any number of threads may read while none writes; copies that share a file count as one.
 class RowStore {

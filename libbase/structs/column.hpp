@@ -44,9 +44,9 @@ struct ColumnInfo {
   std::string_view key;      ///< dataset or attribute, below the group
   std::string_view unit;     ///< SI unit; empty if it has none
   std::string_view meaning;  ///< what it is, for a plot's axis and the manual
-  /// Dimensions by name, beyond that of the rows: "stations speeds". Those of one name have one size
-  /// throughout a file; a number is a size, a path the dataset along it; "+" behind a name: at least
-  /// one element.
+  /// Dimensions by name, beyond that of the rows: "stations speeds". Those of one name have one
+  /// size throughout a file; a number is a size, a path the dataset along it; "+" behind a name: at
+  /// least one element.
   std::string_view dimensions = "";
   ValidValues values{};
   /// Key in JSON; left out, the key with its unit: "speed_rpm" for rad/s, "x_m". Frequencies are
@@ -76,8 +76,8 @@ struct Column : ColumnInfo {
   constexpr Column as(std::string_view name) const { return with(&Column::json_key, name); }
   constexpr Column only(Written place) const { return with(&Column::written, place); }
   constexpr Column from_one() const { return with(&Column::is_from_one, true); }
-  /// Left out of files where it is empty, and files without it are whole; if it is in JSON only, left
-  /// out of that.
+  /// Left out of files where it is empty, and files without it are whole; if it is in JSON only,
+  /// left out of that.
   constexpr Column maybe() const { return with(&Column::is_optional, true); }
 
  private:
@@ -145,8 +145,8 @@ template <std::size_t... Number, class... C>
 struct Places<std::index_sequence<Number...>, C...> : Place<Number, C>... {};
 }  // namespace lists
 
-/// The columns of a struct, in their order: ColumnList{column(...), rows(...)}. A std::tuple of as many
-/// takes compilers several times as long.
+/// The columns of a struct, in their order: ColumnList{column(...), rows(...)}. A std::tuple of as
+/// many takes compilers several times as long.
 template <class... C>
 struct ColumnList : lists::Places<std::index_sequence_for<C...>, C...> {
   static constexpr std::size_t size = sizeof...(C);

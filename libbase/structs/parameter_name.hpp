@@ -1,6 +1,6 @@
 #pragma once
-/// Columns of results (column.hpp) whose numbers are values of a parameter of the model: which one, and
-/// in which unit, only a call knows.
+/// Columns of results (column.hpp) whose numbers are values of a parameter of the model: which one,
+/// and in which unit, only a call knows.
 
 #include <concepts>
 #include <string>
@@ -16,8 +16,8 @@ struct ParameterName {
   std::string path, unit;
 };
 
-/// A result with such columns: `static auto& parameter_of(auto& result, std::string_view dataset)` gives
-/// the ParameterName of a dataset.
+/// A result with such columns: `static auto& parameter_of(auto& result, std::string_view dataset)`
+/// gives the ParameterName of a dataset.
 template <class T>
 concept HasParameters = requires(T& result) {
   { T::parameter_of(result, "") } -> std::convertible_to<ParameterName>;

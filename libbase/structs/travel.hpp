@@ -1,8 +1,9 @@
 #pragma once
-/// Values as bytes, for another process of the same program, and back: every bit of a number survives.
+/// Values as bytes, for another process of the same program, and back: every bit of a number
+/// survives.
 ///
-/// A struct says once for both directions which members travel, by a function beside it that names all
-/// of them, so that one that is new does not compile before it is named there:
+/// A struct says once for both directions which members travel, by a function beside it that names
+/// all of them, so that one that is new does not compile before it is named there:
 ///
 ///   template <class Bytes>
 ///   void travel(Bytes& bytes, Is<Drift> auto& drift) {

@@ -20,8 +20,8 @@ struct CgroupNumber {
   Of of_v1, of_v2;  ///< as version 1 and version 2 say it
 };
 
-/// The smallest number of the groups of this process and of all that these are in; nothing: no group
-/// has one. Where the group cannot be seen, as in a container, that of the container holds.
+/// The smallest number of the groups of this process and of all that these are in; nothing: no
+/// group has one. Where the group cannot be seen, as in a container, that of the container holds.
 /// @param root  under which /proc/self/cgroup and /sys/fs/cgroup are looked for
 /// @source cgroups(7)
 std::optional<double> least_of_cgroups(const std::filesystem::path& root,

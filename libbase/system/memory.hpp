@@ -16,11 +16,12 @@ struct MemoryLimits {
 
 /// The limits of this process, now.
 ///
-/// Of a cgroup: memory.max of version 2, memory.limit_in_bytes of version 1, less what is in use and
-/// not only files that were read (inactive_file). What cannot be read limits nothing.
+/// Of a cgroup: memory.max of version 2, memory.limit_in_bytes of version 1, less what is in use
+/// and not only files that were read (inactive_file). What cannot be read limits nothing.
 ///
 /// @param root  under which /proc and /sys/fs/cgroup are looked for
-/// @source proc(5), getrlimit(2); Linux, Documentation/admin-guide/cgroup-v2.rst, cgroup-v1/memory.rst
+/// @source proc(5), getrlimit(2); Linux, Documentation/admin-guide/cgroup-v2.rst,
+/// cgroup-v1/memory.rst
 MemoryLimits memory_limits(const std::filesystem::path& root = "/");
 
 /// The smallest of them [bytes]; without any it is infinite.

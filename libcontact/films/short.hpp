@@ -19,9 +19,9 @@ namespace whirl::inline contact {
 ///   G = 2 / sqrt(Q) arccot(-U / (p sqrt(Q))),   V = (2 p + U G) / Q,
 ///   S = -(x a + y b) p / (p^2 Q + U^2)
 ///
-/// At a = b = 0, where the half changes sides, the force is zero and has a kink. The kink is rounded
-/// over 1e-9 of the rates' scale, p = sqrt(a^2 + b^2 + (1e-9)^2), so that steps pass through it;
-/// elsewhere this is below rounding.
+/// At a = b = 0, where the half changes sides, the force is zero and has a kink. The kink is
+/// rounded over 1e-9 of the rates' scale, p = sqrt(a^2 + b^2 + (1e-9)^2), so that steps pass
+/// through it; elsewhere this is below rounding.
 ///
 /// Away from the oil (U < 0) near the wall, V and the force keep a relative error of rounding over
 /// Q^2: they are small there.

@@ -14,8 +14,8 @@ namespace whirl::inline contact {
 ///   N = k d,   d = radius |theta| - clearance
 ///
 /// The rim's largest axial displacement is where a = radius (-theta_y, theta_x) points; N presses
-/// there, along z, and so acts on the tilts as the moment that turns them back. Friction acts on the
-/// rim there, against the spin: -mu N t on the lateral displacement, t = (-a_y, a_x) / |a|. Its
+/// there, along z, and so acts on the tilts as the moment that turns them back. Friction acts on
+/// the rim there, against the spin: -mu N t on the lateral displacement, t = (-a_y, a_x) / |a|. Its
 /// moment about z is left to the drive. The rotor does not move along z.
 ///
 /// @source a rigid disk and a plane, to first order in the tilts

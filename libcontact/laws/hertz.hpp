@@ -14,8 +14,8 @@ namespace whirl::inline contact {
 ///
 /// For two spheres, or a ball in a ring, k = (4/3) E* sqrt(R*), with 1/E* the sum of (1 - nu^2) / E
 /// and 1/R* that of the curvatures. A slow impact at v gives back (1 - alpha v) v. The force is
-/// continuous at d = 0 with damping, too; it ends before the surfaces part where something else pulls
-/// them apart faster than 2 / (3 alpha).
+/// continuous at d = 0 with damping, too; it ends before the surfaces part where something else
+/// pulls them apart faster than 2 / (3 alpha).
 ///
 /// @source [Hertz1882], [Johnson1985]; [HuntCrossley1975] for the damping
 template <class R = double>

@@ -15,11 +15,12 @@ namespace whirl::inline data {
 
 namespace {
 
-/// What may be left between windows, in noises: at first it hardly counts, at last it has to be nothing.
+/// What may be left between windows, in noises: at first it hardly counts, at last it has to be
+/// nothing.
 constexpr std::array<double, 9> gaps{100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01};
-/// And then of steady motions, which close: what a gap lets through of a motion that does not seems to
-/// tell parameters that the steady one does not (as the stiffness in a full annular rub).
-/// Of other motions, too, while parameters are told less surely than their readings could tell them.
+/// And then of steady motions, which close: what a gap lets through of a motion that does not seems
+/// to tell parameters that the steady one does not (as the stiffness in a full annular rub). Of
+/// other motions, too, while parameters are told less surely than their readings could tell them.
 constexpr std::array<double, 2> closing{1e-3, 1e-4};
 constexpr double nearly_least =
     1.01;  ///< standard deviation over the least one, which is near enough
@@ -29,9 +30,9 @@ constexpr double rough_change = 1e-4;
 /// Change in an iteration that ends the search, in mean squares of a reading: parameters move by a
 /// hundredth of their deviations then.
 constexpr double last_change = 1e-4;
-/// Windows a revolution of a steady motion: a period is little to guess states from, and the shorter windows
-/// are the nearer they follow it whatever the parameters are. Where the first number leads nowhere the
-/// others may.
+/// Windows a revolution of a steady motion: a period is little to guess states from, and the
+/// shorter windows are the nearer they follow it whatever the parameters are. Where the first
+/// number leads nowhere the others may.
 constexpr std::array<int, 3> steady_windows{8, 16, 4};
 constexpr double confidence = 1.959963985;  ///< standard deviations to either side of 95 %
 
@@ -112,7 +113,8 @@ std::vector<bool> held_unknowns(const FitSearch& search) {
   return is_held;
 }
 
-/// Largest standard deviation of a parameter over the least that it could have; 1 where none is told.
+/// Largest standard deviation of a parameter over the least that it could have; 1 where none is
+/// told.
 double over_least_deviation(const FitSearch& search, const FitJacobian& J) {
   const std::vector<bool> is_held = held_unknowns(search);
   const Vec own = fit_covariance(J, FitGaps::residuals, is_held).diagonal();
@@ -177,9 +179,9 @@ std::string why_not_of(DoglegEnd end, int iterations) {
                      iterations);
 }
 
-/// Narrows the gaps of a search that has converged until the records tell parameters as surely as they
-/// can. Where a narrower one is not found the search stays at the last, as motions do that forget their
-/// beginning: no search follows these over a whole record.
+/// Narrows the gaps of a search that has converged until the records tell parameters as surely as
+/// they can. Where a narrower one is not found the search stays at the last, as motions do that
+/// forget their beginning: no search follows these over a whole record.
 void close_gaps(FitLeastSquares& squares, FitSearch& search, double enough) {
   for (const double between : closing) {
     if (over_least_deviation(search, squares.jacobian()) < nearly_least) return;

@@ -14,8 +14,8 @@ struct FitOptions {
   double window = 0.0;         ///< of multiple shooting [s]; 0: a revolution
   int most_iterations = 300;   ///< once motions are to be one
   bool is_noise_known = true;  ///< else its size is taken from what is left
-  /// Asked before every window of a record; true: the fit ends as it is, without the errors of what it found.
-  /// May be empty.
+  /// Asked before every window of a record; true: the fit ends as it is, without the errors of what
+  /// it found. May be empty.
   std::function<bool()> is_stopped{};
   std::function<void(long done, long total)> progress{};
 };
@@ -63,8 +63,8 @@ struct Fit {
   std::string why_not;  ///< if it has not
   std::vector<FittedParameter> parameters;
   Mat correlation;  ///< of their errors
-  /// Largest standard deviation of a parameter over the least that an estimate without bias can have
-  /// (Cramer and Rao); above 1 where gaps between windows are part of what is told.
+  /// Largest standard deviation of a parameter over the least that an estimate without bias can
+  /// have (Cramer and Rao); above 1 where gaps between windows are part of what is told.
   double over_least_deviation = 1.0;
   double residual =
       0.0;  ///< root mean square of all residuals over their noise: 1 where the model explains all
@@ -76,14 +76,16 @@ struct Fit {
   std::vector<FitResidual> records;
 };
 
-/// Finds parameters by multiple shooting: least squares over the parameters and the state at the start of
-/// each window, with exact derivatives through touches, releases and slip.
+/// Finds parameters by multiple shooting: least squares over the parameters and the state at the
+/// start of each window, with exact derivatives through touches, releases and slip.
 ///
-/// What is left between windows is weighted more and more, until parameters have the errors of maximum
-/// likelihood to 1 %: at the end the motions of a record are one. Where no search gets that far, as in long
-/// records of chaos, deviations are those of the search as it is, gaps included (over_least_deviation).
+/// What is left between windows is weighted more and more, until parameters have the errors of
+/// maximum likelihood to 1 %: at the end the motions of a record are one. Where no search gets that
+/// far, as in long records of chaos, deviations are those of the search as it is, gaps included
+/// (over_least_deviation).
 ///
-/// @throws ModelError  for records without readings, parameters without a size or outside their bounds
+/// @throws ModelError  for records without readings, parameters without a size or outside their
+/// bounds
 /// @source [Bock1983]; covariance as [Seber2003], sec. 2.1
 Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
         const FitOptions& options = {});

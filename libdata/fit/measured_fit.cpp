@@ -274,8 +274,8 @@ void note_missing(MeasuredFit& found, const std::vector<FitMeasurement>& measure
                   count, count == 1 ? " is" : "s are"));
 }
 
-/// A search that ended where the motion found has less than half of what was read, and what is left is
-/// not noise, has not found a fit.
+/// A search that ended where the motion found has less than half of what was read, and what is left
+/// is not noise, has not found a fit.
 void refuse_nonsense(MeasuredFit& found) {
   if (found.explained >= least_explained || found.residual < unexplained) return;
   found.same_end = 0;

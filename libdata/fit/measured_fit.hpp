@@ -23,8 +23,8 @@ struct FitSpan {
 
 /// Some revolutions of a record.
 ///
-/// Speed and phase are those of the key-phasor; without one the speed is the one given, and the phase at
-/// the first sample is zero.
+/// Speed and phase are those of the key-phasor; without one the speed is the one given, and the
+/// phase at the first sample is zero.
 ///
 /// @param from         revolutions before, of the record
 /// @param revolutions  at most; 0: all that there are
@@ -43,7 +43,8 @@ struct FitMeasurement {
   std::function<Model(const Vec& values)> model_at;  ///< as of model_source
 };
 
-/// Standard deviation of the noise of probes. Left out, it is found: what is left of each is its noise.
+/// Standard deviation of the noise of probes. Left out, it is found: what is left of each is its
+/// noise.
 struct ProbeNoise {
   double value = 0.0;  ///< [m], or of the standard deviation of what a probe reads
   bool is_relative = false;
@@ -51,8 +52,8 @@ struct ProbeNoise {
 
 struct MeasuredFitOptions {
   std::optional<ProbeNoise> noise{};
-  /// Revolutions after which the motions repeat: records are averaged over these periods, and the noise
-  /// is what is left between them, see steady_record. 0: they need not repeat.
+  /// Revolutions after which the motions repeat: records are averaged over these periods, and the
+  /// noise is what is left between them, see steady_record. 0: they need not repeat.
   int period = 0;
   bool finds_offsets = false;  ///< of the probes, see FitRecord::is_offset_known
   int starts = 1;              ///< the model's own values, and others drawn between the bounds
@@ -141,8 +142,9 @@ struct FitCandidate {
   double residual = 0.0;
   double log_likelihood = 0.0;
   double information = 0.0;  ///< criterion of Bayes [Schwarz1978]: the smallest is the best
-  /// Share of its likelihood in that of all that converged, each punished for its parameters: where one of
-  /// them is right and none was preferred before, the probability that it is this one. 0: it did not.
+  /// Share of its likelihood in that of all that converged, each punished for its parameters: where
+  /// one of them is right and none was preferred before, the probability that it is this one. 0: it
+  /// did not.
   double weight = 0.0;
 
   static constexpr auto columns() {
@@ -207,15 +209,16 @@ struct MeasuredFit : Fit {
   }
 };
 
-/// Standard deviation of the noise in equally spaced samples, as far as the upper half of their spectrum
-/// shows it: the median there, as motions have lines. Motions with much in it make it larger.
+/// Standard deviation of the noise in equally spaced samples, as far as the upper half of their
+/// spectrum shows it: the median there, as motions have lines. Motions with much in it make it
+/// larger.
 double noise_floor(const Vec& samples);
 
 /// Finds parameters by multiple shooting through some revolutions of records, see fit().
 ///
-/// Probes are weighted by their noise. If nobody knows it, it is their noise floor first, then what is
-/// left of each. A search that ends where less than half of the readings is explained,
-/// and more is left than noise, has not converged.
+/// Probes are weighted by their noise. If nobody knows it, it is their noise floor first, then what
+/// is left of each. A search that ends where less than half of the readings is explained, and more
+/// is left than noise, has not converged.
 ///
 /// @throws ModelError, OptionError  as fit() and model_source()
 MeasuredFit fit(const std::vector<FitMeasurement>& measurements,

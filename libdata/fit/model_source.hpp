@@ -12,8 +12,8 @@ namespace whirl::inline data {
 
 /// A source whose systems are those of a model.
 ///
-/// All of them move in the shapes of one scene, see SystemSlope. No parameter may change the speed: that
-/// is what the record was measured at.
+/// All of them move in the shapes of one scene, see SystemSlope. No parameter may change the speed:
+/// that is what the record was measured at.
 ///
 /// A value at a bound is taken a millionth of its size inside, and slopes within four steps of it
 /// (SystemSlope) are those there: beyond a bound there may be no model.

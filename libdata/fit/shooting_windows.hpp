@@ -12,10 +12,10 @@ namespace whirl::inline data {
 
 /// Some successive samples of a record, and how a motion through them is compared with these.
 ///
-/// Deviations of a motion grow: over a whole record so much that no search gets along. In a window they
-/// have no time to. Each begins at a state of its own, and what is left between the end of one and the
-/// beginning of the next is a residual like all others, of a weight that grows during the search. Of a
-/// steady motion the first window is the next of the last one.
+/// Deviations of a motion grow: over a whole record so much that no search gets along. In a window
+/// they have no time to. Each begins at a state of its own, and what is left between the end of one
+/// and the beginning of the next is a residual like all others, of a weight that grows during the
+/// search. Of a steady motion the first window is the next of the last one.
 ///
 /// @source [Bock1983]
 class ShootingWindow {
@@ -33,8 +33,8 @@ class ShootingWindow {
   Eigen::Index states() const { return 2 * source_->rows.cols(); }
   bool has_next() const { return has_next_; }
 
-  /// State at its beginning that its readings suggest: the motion nearest to zero that has them, and
-  /// the rate at which they change.
+  /// State at its beginning that its readings suggest: the motion nearest to zero that has them,
+  /// and the rate at which they change.
   /// @param offset  that readings have, per probe [m]
   Vec guess(const Vec& offset) const;
 
@@ -74,7 +74,8 @@ class ShootingWindow {
 
 /// Windows of a record of about a duration each [s], at least one, of a steady motion at least two.
 /// @param system  that is compared, for its speed and loads
-/// @throws ModelError  for a steady motion whose readings are not within its period and in both halves of
+/// @throws ModelError  for a steady motion whose readings are not within its period and in both
+/// halves of
 ///                     it, or whose loads repeat later
 std::vector<ShootingWindow> shooting_windows(const FitSource& source, double duration,
                                              const ContactSystem& system);

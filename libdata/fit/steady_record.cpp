@@ -32,7 +32,8 @@ struct Folded {
   std::vector<Eigen::Index> sample;  ///< of the record, those without a missing probe
   std::vector<Eigen::Index> period;  ///< of each of them
   std::vector<Eigen::Index> bin;
-  Vec angle;  ///< 0 at the start of a period, 2 pi at its end, less than 0 for some of the first bin
+  Vec angle;  ///< 0 at the start of a period, 2 pi at its end, less than 0 for some of the first
+              ///< bin
 
   Eigen::Index samples() const { return angle.size(); }
 };
@@ -132,7 +133,8 @@ Scatter scatter_of(const Folded& folded, const Vec& rest) {
   return found;
 }
 
-/// The averages of classes of periods beside one another: how much more they differ than chance has it.
+/// The averages of classes of periods beside one another: how much more they differ than chance has
+/// it.
 struct Classes {
   double ratio = 0.0;       ///< of variances between classes and within them, about 1 by chance
   double deviation = 0.0;   ///< of the ratio by chance

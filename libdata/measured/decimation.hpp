@@ -6,9 +6,9 @@ namespace whirl::inline data {
 
 /// Every so many samples of a record whose higher frequencies were taken out before.
 ///
-/// The low-pass filter is a sinc under a Hann window, ten of the new samples to either side, and has
-/// no phase. Below 0.4 of the new sampling rate it keeps amplitudes within 1 %, from 0.6 on it leaves
-/// less than 1 % of them. Ends that the filter does not cover are left out.
+/// The low-pass filter is a sinc under a Hann window, ten of the new samples to either side, and
+/// has no phase. Below 0.4 of the new sampling rate it keeps amplitudes within 1 %, from 0.6 on it
+/// leaves less than 1 % of them. Ends that the filter does not cover are left out.
 ///
 /// @param samples  times x channels, more than 20 factor of them
 /// @return         times x channels, the first at time 10 factor of the record

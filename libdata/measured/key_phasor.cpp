@@ -35,8 +35,8 @@ class Intervals {
                       of_.begin() + static_cast<std::ptrdiff_t>(end)});
   }
   std::size_t count() const { return of_.size(); }
-  /// Whether an interval and the next one are one that a pulse too many cuts in two: rather than the
-  /// next one and that behind it.
+  /// Whether an interval and the next one are one that a pulse too many cuts in two: rather than
+  /// the next one and that behind it.
   bool is_cut(std::size_t i) const {
     const double off = off_as_one(i);
     return off < same_interval && off <= off_as_one(i + 1);

@@ -36,19 +36,20 @@ struct KeyPhasor {
 
 /// Times at which a signal crosses the threshold, located between samples by a straight line [s].
 ///
-/// Another pulse counts only after the signal has gone back by a fifth of its range, or half the way to
-/// its end, so that noise at the threshold makes none.
+/// Another pulse counts only after the signal has gone back by a fifth of its range, or half the
+/// way to its end, so that noise at the threshold makes none.
 std::vector<double> pulse_times(const Vec& samples, const MeasuredRecord& record,
                                 const KeyPhasor& key);
 
 /// The angle that a rotor has turned by, from times of pulses.
 ///
-/// Between pulses it is the cubic whose slopes at pulses are those of parabolas through three of them:
-/// exact where the speed changes evenly.
+/// Between pulses it is the cubic whose slopes at pulses are those of parabolas through three of
+/// them: exact where the speed changes evenly.
 class TurnClock {
  public:
-  /// Up to three pulses that are missing one after the other are put between their neighbors, and one
-  /// that cuts an interval in two is left out; intervals are compared with the median about them.
+  /// Up to three pulses that are missing one after the other are put between their neighbors, and
+  /// one that cuts an interval in two is left out; intervals are compared with the median about
+  /// them.
   ///
   /// @param notes  receives where pulses are missing or too many
   /// @throws OptionError  for fewer than three pulses

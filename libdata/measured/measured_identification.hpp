@@ -42,8 +42,8 @@ struct MeasuredIdentification {
   Identification found;
   double speed = 0.0;     ///< of the rotor in the record [rad/s]
   double duration = 0.0;  ///< of what was transformed [s]
-  /// Whether every station is seen in one direction only. Peaks have no sense then, their frequencies are
-  /// positive, and their amplitudes are those along the directions.
+  /// Whether every station is seen in one direction only. Peaks have no sense then, their
+  /// frequencies are positive, and their amplitudes are those along the directions.
   bool is_in_one_direction = false;
   std::vector<ProbeLabel> probes;
   Vec probe_z;    ///< positions of the probes along the shaft; NaN: at a body [m]
@@ -99,11 +99,11 @@ constexpr double unseen_reading = 1e-3;
 
 /// Identifies the modes in a steady measured motion.
 ///
-/// Peaks are those of the full spectra of all stations together, under a Hann window over the longest
-/// part at the end of the record with whole revolutions, where samples go evenly into these; else over
-/// all but a few samples. Deflection shapes are complex readings of the probes, and so are the modes.
-/// A motion of the model's that probes along x and y of every node and body read has the MAC that it has
-/// without them.
+/// Peaks are those of the full spectra of all stations together, under a Hann window over the
+/// longest part at the end of the record with whole revolutions, where samples go evenly into
+/// these; else over all but a few samples. Deflection shapes are complex readings of the probes,
+/// and so are the modes. A motion of the model's that probes along x and y of every node and body
+/// read has the MAC that it has without them.
 ///
 /// @param model    with its speed, which the record is taken at
 /// @param scene    of it

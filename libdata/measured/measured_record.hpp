@@ -1,5 +1,6 @@
 #pragma once
-/// A record of a measurement: samples of channels at equal steps of time, and what is wrong with them.
+/// A record of a measurement: samples of channels at equal steps of time, and what is wrong with
+/// them.
 
 #include <optional>
 #include <string>
@@ -59,17 +60,17 @@ Vec filled(const Vec& samples);
 Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
                  std::vector<Gaps>& gaps);
 
-/// Whether a signal was cut off: at its largest or smallest value it rests for three samples or more,
-/// and comes there by steps of more than two of the smallest that it makes. What was digitized coarsely
-/// rests at its crests, too, but comes there by the smallest steps.
+/// Whether a signal was cut off: at its largest or smallest value it rests for three samples or
+/// more, and comes there by steps of more than two of the smallest that it makes. What was
+/// digitized coarsely rests at its crests, too, but comes there by the smallest steps.
 bool is_clipped(const Vec& samples);
 
 /// Whether a signal ascends from every sample to the next, 16 or more, as times and numbers of
 /// samples do, and no probe of a vibration.
 bool always_ascends(const Eigen::Ref<const Vec>& samples);
 
-/// Samples that stand out alone: the steps into them and back are five times and more what 99 of 100
-/// steps are at most, and three times the standard deviation of the signal.
+/// Samples that stand out alone: the steps into them and back are five times and more what 99 of
+/// 100 steps are at most, and three times the standard deviation of the signal.
 struct Spikes {
   Eigen::Index count = 0, first = 0;
 };

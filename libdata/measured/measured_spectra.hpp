@@ -19,8 +19,8 @@ struct MeasuredSpectra {
   }
 };
 
-/// Spectra under a Hann window over the longest part at the end of the record with whole revolutions,
-/// where samples go evenly into these; else over all but a few samples.
+/// Spectra under a Hann window over the longest part at the end of the record with whole
+/// revolutions, where samples go evenly into these; else over all but a few samples.
 ///
 /// @param Omega  of the rotor [rad/s]
 MeasuredSpectra spectra_of(const ProbeReadings& readings,

@@ -13,8 +13,8 @@ constexpr double fewest_order_revolutions = 2.0;  ///< that a point can be made 
 struct OrderOptions {
   std::vector<double> orders{1.0, 2.0};  ///< frequencies over speed, each above zero
   double revolutions = 8.0;              ///< that a point is made of
-  /// At whose nearest point the readings are taken off all points of a run-up: runout, which does not
-  /// change with speed [rad/s].
+  /// At whose nearest point the readings are taken off all points of a run-up: runout, which does
+  /// not change with speed [rad/s].
   std::optional<double> slow_roll{};
 };
 
@@ -64,15 +64,17 @@ struct OrderTracking {
 
 /// Tracks orders along a record with a key-phasor.
 ///
-/// A point is made of some revolutions, the next one half of them later. There the readings are, in the
-/// least squares weighted by a Hann window over the angle of the rotor, a constant and all orders:
+/// A point is made of some revolutions, the next one half of them later. There the readings are, in
+/// the least squares weighted by a Hann window over the angle of the rotor, a constant and all
+/// orders:
 ///
 ///   p_j = c + sum_q Re(C_q e^(i q angle_j))
 ///
 /// so that samples need not go evenly into revolutions, and orders do not leak into one another.
 ///
 /// @pre    readings.clock
-/// @throws OptionError  for a record of fewer revolutions than a point has, and for samples too few to
+/// @throws OptionError  for a record of fewer revolutions than a point has, and for samples too few
+/// to
 ///                      show the orders
 OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& options);
 

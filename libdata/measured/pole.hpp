@@ -27,7 +27,8 @@ inline double channel_mac(const CVec& a, const CVec& b) {
   return sizes > 0.0 ? std::norm(a.dot(b)) / sizes : 0.0;
 }
 
-/// How unlike two poles are: relative distance of their frequencies, and what their MAC lacks of one.
+/// How unlike two poles are: relative distance of their frequencies, and what their MAC lacks of
+/// one.
 /// @source [Magalhaes2009]
 inline double pole_distance(const Pole& a, const Pole& b) {
   return std::abs(a.frequency() - b.frequency()) / std::max(a.frequency(), b.frequency()) + 1.0 -

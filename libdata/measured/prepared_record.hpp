@@ -11,7 +11,8 @@ struct PreparedRecord {
   Eigen::RowVectorXd deviation;  ///< standard, of the channels before, in their units
 };
 
-/// Looks at a record, takes harmonics of the speed out of it if that is asked for, and thins it out.
+/// Looks at a record, takes harmonics of the speed out of it if that is asked for, and thins it
+/// out.
 ///
 /// @param found  its channels are known; gets the speed and what was done about its harmonics
 /// @throws ModelError, OptionError  as running_modes

@@ -60,7 +60,8 @@ struct ProbeReadings {
 /// probe; shares of full scale likewise of 1, where the probe does not say what full scale is. Both
 /// are noted. Gaps are filled, and clipped, constant and equal channels are noted.
 ///
-/// @throws OptionError  for a channel that the record does not have or that is in no unit of its gain,
+/// @throws OptionError  for a channel that the record does not have or that is in no unit of its
+/// gain,
 ///                      and as without_gaps and TurnClock
 ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup);
 

@@ -25,7 +25,8 @@ std::string sense_of(const CVec& readings, const std::vector<ProbedStation>& sta
   return orbits.empty() ? "" : std::string(name_of(whirl_of(orbits)));
 }
 
-/// The mode with the largest MAC; of several that probes cannot tell from it, the nearest in frequency.
+/// The mode with the largest MAC; of several that probes cannot tell from it, the nearest in
+/// frequency.
 /// @return  -1 where none is alike
 int most_like(const RunningMode& running, const std::vector<Mode>& modes) {
   constexpr double same = 0.05;  // difference of MACs

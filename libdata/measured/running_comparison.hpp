@@ -6,8 +6,8 @@
 
 namespace whirl::inline data {
 
-/// Running modes from the readings of probes; the phase of the rotor is that of the key-phasor, where
-/// there is one: of the record between its first and last pulse then.
+/// Running modes from the readings of probes; the phase of the rotor is that of the key-phasor,
+/// where there is one: of the record between its first and last pulse then.
 ///
 /// @param options  with a speed for records without a key-phasor; channels and phase are set here
 /// @throws ModelError, OptionError  as running_modes

@@ -76,8 +76,9 @@ bool is_of_interest(double frequency, const RunningModesOptions& o) {
   return o.most_frequency == 0.0 || frequency <= o.most_frequency;
 }
 
-/// Block rows whose lags go as far as the covariances do, to where they stay below half of the largest
-/// one for half as long again: farther there is noise alone, of which models of high order split modes.
+/// Block rows whose lags go as far as the covariances do, to where they stay below half of the
+/// largest one for half as long again: farther there is noise alone, of which models of high order
+/// split modes.
 void shorten_block_rows(const RunningModesOptions& o, const OutputProducts& all,
                         RunningModes& found) {
   constexpr double small = 0.5;
@@ -181,7 +182,8 @@ class KnownPoles {
   std::map<int, std::vector<Pole>> of_order_;
 };
 
-/// Standard deviations of modes: medians over some orders of models without one stretch of the record.
+/// Standard deviations of modes: medians over some orders of models without one stretch of the
+/// record.
 void find_deviations(RunningModes& found, const std::vector<std::vector<std::size_t>>& clusters,
                      const std::vector<OutputProducts>& stretches, const OutputProducts& all) {
   std::vector<std::vector<double>> frequencies(clusters.size()), dampings(clusters.size());

@@ -88,8 +88,8 @@ struct RunningModes {
   bool are_harmonics_removed = false;
   int block_rows = 0, most_order = 0;
 
-  /// The peak of the decomposition that is the same mode: the nearest one, within 3 % and with a MAC of
-  /// 0.8; null: there is none.
+  /// The peak of the decomposition that is the same mode: the nearest one, within 3 % and with a
+  /// MAC of 0.8; null: there is none.
   const DecomposedMode* peak_of(const RunningMode& mode) const;
 
   static constexpr std::string_view group = "/running_modes";
@@ -120,21 +120,22 @@ struct RunningModes {
 };
 
 /// Identifies the modes of a running machine: poles by stochastic subspace identification
-/// (SubspaceModels) that are stable over model orders (clustered_modes), and peaks by frequency-domain
-/// decomposition (decomposed_modes) to compare with.
+/// (SubspaceModels) that are stable over model orders (clustered_modes), and peaks by
+/// frequency-domain decomposition (decomposed_modes) to compare with.
 ///
-/// Harmonics of the speed are taken out first (without_harmonics), and what is left of them is marked.
-/// Channels are divided by their standard deviations, so that their units do not matter.
+/// Harmonics of the speed are taken out first (without_harmonics), and what is left of them is
+/// marked. Channels are divided by their standard deviations, so that their units do not matter.
 ///
-/// Standard deviations are those of the jackknife: the same from all stretches of the record but one,
-/// one after the other. Poles that large models make of noise are stable, too, for a while; what tells
-/// them is that they are elsewhere without a stretch. A group of poles is a mode only if
+/// Standard deviations are those of the jackknife: the same from all stretches of the record but
+/// one, one after the other. Poles that large models make of noise are stable, too, for a while;
+/// what tells them is that they are elsewhere without a stretch. A group of poles is a mode only if
 ///
 ///   hypot(deviation of w, |lambda| deviation of zeta) <= most_deviation |Re lambda|
 ///
 /// @param samples  times x channels, at equal distances
 /// @param spacing  time between samples [s]
-/// @throws ModelError   for samples that are not numbers, channels that do not vary, too few samples
+/// @throws ModelError   for samples that are not numbers, channels that do not vary, too few
+/// samples
 /// @throws OptionError  for options that mean nothing, or more orders than the data can have
 /// @source jackknife over stretches [Kuensch1989]
 RunningModes running_modes(const Mat& samples, double spacing, const RunningModesOptions& options);

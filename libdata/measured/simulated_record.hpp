@@ -14,9 +14,9 @@ struct ChannelNoise {
   std::uint64_t seed = 1;  ///< each channel has a sequence of its own
 };
 
-/// A record of a run: a channel per probe as its gain says, and of the key-phasor pulses of height one,
-/// whose edge crosses one half where the rotor is at its angle. Channels that are numbers are at these
-/// places, others by their names in between.
+/// A record of a run: a channel per probe as its gain says, and of the key-phasor pulses of height
+/// one, whose edge crosses one half where the rotor is at its angle. Channels that are numbers are
+/// at these places, others by their names in between.
 ///
 /// @pre  run.has_motion()
 /// @throws OptionError  for more pulses than samples can show

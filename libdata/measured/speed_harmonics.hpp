@@ -13,11 +13,12 @@ Vec constant_speed_phase(double Omega, double spacing, Eigen::Index samples);
 /// Mean speed over a record [rad/s].
 double mean_speed(const Vec& phase, double spacing);
 
-/// A constant speed, found more closely than it was given: the one near it under whose first harmonic
-/// the channels have most energy, within half a per cent.
+/// A constant speed, found more closely than it was given: the one near it under whose first
+/// harmonic the channels have most energy, within half a per cent.
 ///
-/// The line of the highest harmonic peak of all is located between the bins of a spectrum of the whole
-/// record; where no peak stands ten times above its surroundings, the speed stays as it was given.
+/// The line of the highest harmonic peak of all is located between the bins of a spectrum of the
+/// whole record; where no peak stands ten times above its surroundings, the speed stays as it was
+/// given.
 double refined_speed(const Mat& samples, double spacing, double Omega, int harmonics);
 
 /// Takes the mean and the parts that turn with the rotor out of each channel:
@@ -37,8 +38,8 @@ constexpr double line_damping = 0.002;
 
 /// The harmonic of a speed that a pole is; 0: none.
 ///
-/// A harmonic is a line: its pole has hardly any damping. A mode that happens to lie at a harmonic is
-/// told apart by that.
+/// A harmonic is a line: its pole has hardly any damping. A mode that happens to lie at a harmonic
+/// is told apart by that.
 ///
 /// @param tolerance  relative distance of the frequencies
 int harmonic_at(double frequency, double damping_ratio, double speed, int harmonics,

@@ -44,8 +44,8 @@ struct OrderPole : Pole {
 
 /// Compares poles with those of the order before.
 ///
-/// The like of a pole is the one of the order before with the least pole_distance(). Each limit is a
-/// flag of its own; poles of the lowest order have none.
+/// The like of a pole is the one of the order before with the least pole_distance(). Each limit is
+/// a flag of its own; poles of the lowest order have none.
 ///
 /// @param orders  poles of each order, ascending
 void find_stable(std::vector<std::vector<OrderPole>>& orders, const StabilityLimits& limits);
@@ -53,10 +53,10 @@ void find_stable(std::vector<std::vector<OrderPole>>& orders, const StabilityLim
 /// Groups of poles that are one mode.
 ///
 /// Stable poles that are no harmonic are joined while the mean pole_distance() of two groups is at
-/// most what the limits allow between neighboring orders, (limit of frequency) + 1 - (limit of MAC);
-/// the nearest two first. Of several poles of one order a group keeps the one nearest to its median.
-/// A group is a mode if it has poles of a share of all orders. Whether shapes are real is not asked:
-/// those of rotors are not.
+/// most what the limits allow between neighboring orders, (limit of frequency) + 1 - (limit of
+/// MAC); the nearest two first. Of several poles of one order a group keeps the one nearest to its
+/// median. A group is a mode if it has poles of a share of all orders. Whether shapes are real is
+/// not asked: those of rotors are not.
 ///
 /// @param share  of the orders, 0 to 1
 /// @return       numbers of the poles in each mode, by ascending median frequency

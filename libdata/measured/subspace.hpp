@@ -28,9 +28,9 @@ OutputProducts output_products(const Mat& samples, int lags, Eigen::Index first,
 
 /// Models of all orders up to a largest one, from one decomposition.
 ///
-/// With covariances R_k = E[y(t + k) y(t)^T] of a linear system under white noise, R_k = C A^(k-1) G,
-/// so that the block Toeplitz matrix of R_1 ... R_(2i-1) is the product of an observability matrix O
-/// and a controllability matrix,
+/// With covariances R_k = E[y(t + k) y(t)^T] of a linear system under white noise, R_k = C A^(k-1)
+/// G, so that the block Toeplitz matrix of R_1 ... R_(2i-1) is the product of an observability
+/// matrix O and a controllability matrix,
 ///
 ///   T = [R_i ... R_1; R_(i+1) ... R_2; ...; R_(2i-1) ... R_i] = U S V^T,   O = U S^(1/2)
 ///

@@ -107,7 +107,8 @@ Place place_at(const BifurcationCurve& curve, const Vec& x, double second) {
   return p;
 }
 
-/// Derivatives of gaps and g by the first parameter u, or the second one itself, and of g by the states.
+/// Derivatives of gaps and g by the first parameter u, or the second one itself, and of g by the
+/// states.
 struct Slopes {
   Vec by_parameter;
   Vec by_states;  ///< if asked for
@@ -222,8 +223,8 @@ Vec graze_slopes(const BifurcationCurve& curve, const Vec& x, double second, dou
   return slopes;
 }
 
-/// dg / dx of a critical multiplier by the states, each of which moves one segment only; nothing where
-/// a moved one has no g.
+/// dg / dx of a critical multiplier by the states, each of which moves one segment only; nothing
+/// where a moved one has no g.
 std::optional<Vec> multiplier_slopes(const BifurcationCurve& curve, const Vec& x, double second,
                                      const Place& here) {
   const Vec& scale = curve.scale;
@@ -313,8 +314,8 @@ BranchEquations::Value evaluate(const BifurcationCurve& curve, const Vec& x, dou
   return at;
 }
 
-/// Takes the extremum of a contact's depth in a step, or on its way into it, if that is nearer to touching
-/// than what is known.
+/// Takes the extremum of a contact's depth in a step, or on its way into it, if that is nearer to
+/// touching than what is known.
 ///
 /// @param rate  of the depth at the end of the step before, or no number; becomes that of this one
 void find_graze(const ContactSystem& system, std::size_t contact, const Step& step, double& rate,

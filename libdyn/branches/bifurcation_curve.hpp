@@ -33,12 +33,13 @@ struct FlowPlane {
 ///   g = |mu|^2 - 1        Neimark-Sacker, for the complex pair nearest to the unit circle
 ///   g = depth / clearance grazing, of the extremum of a contact's depth nearest to touching
 ///
-/// With v and w the critical eigenvectors of the tangent T of a period, T v = mu v and w^T T = mu w^T,
+/// With v and w the critical eigenvectors of the tangent T of a period, T v = mu v and w^T T = mu
+/// w^T,
 ///
 ///   d(mu) = w^T dT v / w^T v
 ///
-/// where dT v are slopes of the deviation v; exactly, or by differences of tangents. The multipliers
-/// are the others: where one of them leaves the unit circle two bifurcations meet.
+/// where dT v are slopes of the deviation v; exactly, or by differences of tangents. The
+/// multipliers are the others: where one of them leaves the unit circle two bifurcations meet.
 ///
 /// @param kind   a fold, period doubling, Neimark-Sacker point or grazing
 /// @param scale  of the states
@@ -47,9 +48,9 @@ struct FlowPlane {
 BranchEquations bifurcation_curve_equations(BifurcationKind kind, FlowPlane flows, Vec scale,
                                             double low, double high);
 
-/// Depth over clearance where it comes nearest to zero with a rate of zero, over the revolutions from
-/// several starts: negative just before a contact touches, positive where it just does. Of contacts
-/// that touch for good, likewise the other way.
+/// Depth over clearance where it comes nearest to zero with a rate of zero, over the revolutions
+/// from several starts: negative just before a contact touches, positive where it just does. Of
+/// contacts that touch for good, likewise the other way.
 ///
 /// @param contact  name of the contact; empty: any
 /// @param starts   of a revolution each

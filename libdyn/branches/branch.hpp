@@ -20,8 +20,8 @@ struct BranchEquations {
     Mat jacobian;                          ///< by x, if it is wanted
     std::vector<ContactMeasure> contacts;  ///< shares of the period
     std::function<CVec()> multipliers;     ///< the largest first; likewise, where the residual is 0
-    /// Derivative of the residual by the parameter's value at fixed x, exact; likewise. A null function,
-    /// an empty value or a NumericalError: it is not known, and taken as a difference.
+    /// Derivative of the residual by the parameter's value at fixed x, exact; likewise. A null
+    /// function, an empty value or a NumericalError: it is not known, and taken as a difference.
     std::function<Vec()> slope;
     Failure failure;
   };

@@ -28,15 +28,15 @@ struct ContinuationOptions {
 ///   F(z) = 0,  <t, z - z_predicted> = 0,   z = (x, u)
 ///   <a, b> = mean of a_i b_i over the unknowns x + a_u b_u
 ///
-/// Newton's method corrects what the tangent t predicts. The derivative by the parameter is taken at
-/// each point, exactly where the equations have it, else as a central difference of two further
+/// Newton's method corrects what the tangent t predicts. The derivative by the parameter is taken
+/// at each point, exactly where the equations have it, else as a central difference of two further
 /// evaluations. Steps follow the number of corrections and the
 /// angle between tangents; where none converges they shrink. Bifurcations between two points show
 /// by the signs of test functions (see bifurcation.hpp) or by other numbers of impacts; they are
 /// located by solving for the point where that happens.
 ///
-/// All that the walk depends on is in the branch: one that is read back goes on with the same numbers,
-/// bit by bit.
+/// All that the walk depends on is in the branch: one that is read back goes on with the same
+/// numbers, bit by bit.
 ///
 /// @source [Keller1977]; [Kuznetsov2004], 10.2
 class Continuation {
@@ -85,7 +85,8 @@ class Continuation {
   Trial correct(const Plane& plane, Vec by_parameter) const;
   /// Tangent at a point of the branch, and the derivative by the parameter.
   bool add_tangent(Trial& trial, const Vec& along) const;
-  /// What the tangent predicts at an arc length from the last point, corrected, with its own tangent.
+  /// What the tangent predicts at an arc length from the last point, corrected, with its own
+  /// tangent.
   Trial reach(double step) const;
   /// Onto the end of the range that the last tangent leads to.
   Plane range_end_ahead() const;
@@ -106,11 +107,11 @@ class Continuation {
   /// False: it could not be located.
   bool locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b);
   bool locate_grazings(const BranchPoint& a, const BranchPoint& b);
-  /// Where no step succeeds: looks for a grazing ahead, beyond which the branch goes on if an orbit is found
-  /// there; else says why it ends.
+  /// Where no step succeeds: looks for a grazing ahead, beyond which the branch goes on if an orbit
+  /// is found there; else says why it ends.
   void cross_or_end(const std::string& why);
-  /// An orbit beyond a grazing at which all of a circle touches at once, so that no tangent leads across: it
-  /// touches all the time where the last one does not touch, or the other way round.
+  /// An orbit beyond a grazing at which all of a circle touches at once, so that no tangent leads
+  /// across: it touches all the time where the last one does not touch, or the other way round.
   /// @param u  where it grazes, 0 at low and 1 at high
   Trial beyond_grazing(const Bifurcation& grazes, double u) const;
   double limited(double step, const Vec& tangent) const;

@@ -48,8 +48,8 @@ bool same_multipliers(const CVec& a, const CVec& b) {
   return true;
 }
 
-/// Whether two points of the same value are one orbit, wherever on it their states are: an orbit of a
-/// free period comes back to itself with another phase.
+/// Whether two points of the same value are one orbit, wherever on it their states are: an orbit of
+/// a free period comes back to itself with another phase.
 bool is_same(const BranchPoint& a, const BranchPoint& b) {
   const auto equal = [](double x, double y, double within) {
     return std::abs(x - y) <= within * (std::abs(x) + std::abs(y));
@@ -64,8 +64,8 @@ bool is_same(const BranchPoint& a, const BranchPoint& b) {
   return same_multipliers(a.multipliers, b.multipliers);
 }
 
-/// How many impacts a period a contact has more at the second of two orbits; one that touches all the time
-/// has none, and begins or ends as one touch.
+/// How many impacts a period a contact has more at the second of two orbits; one that touches all
+/// the time has none, and begins or ends as one touch.
 double change_of(const ContactMeasure& from, const ContactMeasure& to) {
   if (from.impacts != to.impacts) return to.impacts - from.impacts;
   return (to.duty > 0.0 ? 1.0 : 0.0) - (from.duty > 0.0 ? 1.0 : 0.0);

@@ -20,9 +20,9 @@ using HarmonicSlopeAt = std::function<std::optional<HarmonicProblem>(double valu
 
 /// Those of harmonic balance for a walk along the parameter, with the same harmonics throughout.
 ///
-/// Unknowns are the Fourier coefficients of the displacements at forces over the length scale, which
-/// no change of the modes touches. Multipliers are those of Hill's method; those that it leaves out
-/// count as zero.
+/// Unknowns are the Fourier coefficients of the displacements at forces over the length scale,
+/// which no change of the modes touches. Multipliers are those of Hill's method; those that it
+/// leaves out count as zero.
 ///
 /// @param period, harmonics  of the orbits
 /// @param scale              of displacements [m]

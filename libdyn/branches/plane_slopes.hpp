@@ -20,9 +20,9 @@ struct ParameterEnds {
 
 /// The systems over a plane of two parameters p and q, whose numbers are interpolated along lines.
 ///
-/// Most numbers are those of one parameter or a sum, c(p, q) = a(p) + b(q): slopes are then those of one line
-/// each way, whose systems are made once. Otherwise, as for unbalance and speed, a line is laid
-/// through every place, of five systems and more.
+/// Most numbers are those of one parameter or a sum, c(p, q) = a(p) + b(q): slopes are then those
+/// of one line each way, whose systems are made once. Otherwise, as for unbalance and speed, a line
+/// is laid through every place, of five systems and more.
 ///
 /// May be asked by several threads at once; what it says does not depend on who asked before.
 class PlaneSlopes {
@@ -34,8 +34,8 @@ class PlaneSlopes {
   PlaneSlopes(SceneAt at, ParameterEnds first, ParameterEnds second)
       : at_(std::move(at)), ends_{first, second} {}
 
-  /// The panel along a parameter that holds its value at a place; null: there is no slope, for the same reasons
-  /// as along a range.
+  /// The panel along a parameter that holds its value at a place; null: there is no slope, for the
+  /// same reasons as along a range.
   std::shared_ptr<const SlopePanel> panel_at(PlaneParameter by, double first, double second) const;
 
  private:

@@ -55,13 +55,13 @@ MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start
 /// what depends on p is made once for all points of all branches.
 ///
 /// Where the parameter changes the shapes Phi that scenes move in, their systems are told in the
-/// coordinates of the first scene (BasisChange), in which numbers are smooth, whatever signs and order
-/// shapes have: the derivative is that of the reduced equations, what it changes in the shapes included.
-/// It has the rounding of shapes, which are solved for.
+/// coordinates of the first scene (BasisChange), in which numbers are smooth, whatever signs and
+/// order shapes have: the derivative is that of the reduced equations, what it changes in the
+/// shapes included. It has the rounding of shapes, which are solved for.
 ///
-/// There is no derivative where numbers are no smooth function of the parameter (as at the points of
-/// bearing tables, or where the number of modes changes), and of motions where motion_slopes has none, or
-/// on films, for which two plain motions are nearly twice as cheap.
+/// There is no derivative where numbers are no smooth function of the parameter (as at the points
+/// of bearing tables, or where the number of modes changes), and of motions where motion_slopes has
+/// none, or on films, for which two plain motions are nearly twice as cheap.
 ///
 /// May be asked by several threads at once; what it says does not depend on who asked before.
 class RangeSlopes {
@@ -105,8 +105,8 @@ class RangeSlopes {
                                              double error_of_whole) const;
   /// Its panel, if it has one.
   void make(Part& part, double error_of_whole) const;
-  /// Finds out, at two values of the range, whether there are systems in the coordinates of the first
-  /// one, and whether shapes change.
+  /// Finds out, at two values of the range, whether there are systems in the coordinates of the
+  /// first one, and whether shapes change.
   void look() const;
   /// In the coordinates of the first scene.
   /// @throws NumericalError, ModelError  where there is none

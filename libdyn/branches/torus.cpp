@@ -27,8 +27,8 @@ constexpr Eigen::Index scanned_sections =
 constexpr double sharpest_line = 1e-9;  ///< share of a line's width, to which it is found
 constexpr double moves = 1e-9;          ///< scales that a motion moves at least
 
-/// Shift of a trigonometric polynomial by its values at N even angles: the value at theta + angle is
-/// the sum of D(theta_i - theta_j + angle) x_j with Dirichlet's kernel D; and its derivative.
+/// Shift of a trigonometric polynomial by its values at N even angles: the value at theta + angle
+/// is the sum of D(theta_i - theta_j + angle) x_j with Dirichlet's kernel D; and its derivative.
 struct Shift {
   Mat value, rate;
   Shift(Eigen::Index N, double angle) : value(N, N), rate(N, N) {
@@ -183,8 +183,8 @@ class Lines {
   Vec weights_;
 };
 
-/// A line of which the strongest one is a harmonic, and which: itself, or a part of it whose harmonics
-/// leave much less.
+/// A line of which the strongest one is a harmonic, and which: itself, or a part of it whose
+/// harmonics leave much less.
 std::pair<double, int> own_line(const Lines& lines, double strongest) {
   std::pair<double, int> found{strongest, 1};
   const double all = all_told * lines.energy();

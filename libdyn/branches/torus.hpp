@@ -56,8 +56,8 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
 /// Equations of a circle for the unknowns (points [scales], rotation), at fixed K. What fixes where
 /// theta begins: the first harmonic of a coordinate is real.
 ///
-/// Their multipliers are the sizes of those across the circle, a period each. Where the tail exceeds a
-/// hundredth the circle is no longer one: it breaks up, or locks to a periodic orbit.
+/// Their multipliers are the sizes of those across the circle, a period each. Where the tail
+/// exceeds a hundredth the circle is no longer one: it breaks up, or locks to a periodic orbit.
 /// @param coordinate  whose harmonic is real
 BranchEquations circle_equations(FlowAt flow_at, Vec scale, int period, Eigen::Index coordinate);
 

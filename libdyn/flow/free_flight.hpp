@@ -21,11 +21,12 @@ namespace whirl::inline dyn {
 ///
 ///   max |U y_p - offset| + sum_g a_g < clearance,   z = sum_j w_j v_j,   A v_j = lambda_j v_j,
 ///
-/// with a_g the major semi-axis of Re(sum_j w_j U v_j e^(i t)) over a group g of modes whose eigenvalues
-/// are equal, since these stay together: exact where one mode whirls about a circle. The bound is
-/// left out where the v_j are nearly dependent. If the free motion does not decay (undamped or
-/// rigid-body modes), nothing is certain; nor where a revolution is too long beside the fastest motion
-/// to be computed at once (see LinearFlow), nor under loads of other frequencies than the speed.
+/// with a_g the major semi-axis of Re(sum_j w_j U v_j e^(i t)) over a group g of modes whose
+/// eigenvalues are equal, since these stay together: exact where one mode whirls about a circle.
+/// The bound is left out where the v_j are nearly dependent. If the free motion does not decay
+/// (undamped or rigid-body modes), nothing is certain; nor where a revolution is too long beside
+/// the fastest motion to be computed at once (see LinearFlow), nor under loads of other frequencies
+/// than the speed.
 ///
 /// @source [Kailath1980], sec. 2.6 (Lyapunov's equation); P by doubling [Smith1968]
 class FreeFlight {
@@ -35,7 +36,8 @@ class FreeFlight {
   /// Whether no contact can ever happen from this state on.
   bool is_certain(const MotionState& state);
 
-  /// Whether the free motion, of a system without oil films, decays towards y_p and can be finished.
+  /// Whether the free motion, of a system without oil films, decays towards y_p and can be
+  /// finished.
   bool decays();
   /// y_p at a phase, where the free motion decays to it.
   Vec steady_state(double phase) const;

@@ -9,8 +9,8 @@
 
 namespace whirl::inline dyn {
 
-/// y' = A y + F (1, cos phase, sin phase) - B f(t), with f a polynomial on each step. Loads of other
-/// frequencies than that of the phase it does not know.
+/// y' = A y + F (1, cos phase, sin phase) - B f(t), with f a polynomial on each step. Loads of
+/// other frequencies than that of the phase it does not know.
 ///
 ///   y(t + h) = (I + X) y(t) + L (1, cos phase(t), sin phase(t)) + G a
 ///
@@ -32,7 +32,8 @@ class LinearFlow {
 
   /// @param longest  size at level 0 [s]
   /// @param terms    of the polynomials f
-  /// @throws NumericalError  where the fastest motion of the system is too fast beside `longest`: no
+  /// @throws NumericalError  where the fastest motion of the system is too fast beside `longest`:
+  /// no
   ///                         level is as short as its Taylor series asks for
   LinearFlow(const ContactSystem& system, double longest, int terms);
 
@@ -68,7 +69,8 @@ class LinearFlow {
  private:
   void build_by_series(Table& t) const;
   void build_by_doubling(Table& t, const Table& half) const;
-  /// rows() of a time d by Taylor series, with the forces of so many columns of B as powers of t / d.
+  /// rows() of a time d by Taylor series, with the forces of so many columns of B as powers of t /
+  /// d.
   Rows rows_by_series(double d, const Mat& r, int columns) const;
   Eigen::Matrix3d rotation(double t) const;
   bool is_small(int level) const { return norm_ * size(level) <= 0.25; }

@@ -1,6 +1,6 @@
 #pragma once
-/// Frequency responses of the linear rotor at a speed: receptances, mobilities, accelerances between
-/// stations, along x, y or a sense of whirl.
+/// Frequency responses of the linear rotor at a speed: receptances, mobilities, accelerances
+/// between stations, along x, y or a sense of whirl.
 
 #include <array>
 #include <optional>
@@ -17,8 +17,8 @@ namespace whirl::inline dyn {
 /// Along what a force acts, or a motion is told.
 ///
 /// A forward force is one of constant size that turns with the spin, f_x + i f_y = F e^(i w t), a
-/// backward one turns against it. Of a motion x + i y = r_f e^(i w t) + conj(r_b) e^(-i w t), forward
-/// tells r_f and backward r_b.
+/// backward one turns against it. Of a motion x + i y = r_f e^(i w t) + conj(r_b) e^(-i w t),
+/// forward tells r_f and backward r_b.
 enum class Direction { x, y, theta_x, theta_y, forward, backward };
 
 constexpr std::array<Choice<Direction>, 6> choices(Direction) {
@@ -42,7 +42,8 @@ struct ResponseEnd {
 };
 
 /// Those of a list "left disk:y,7,seal:forward,1X": a station as in select_points, x if there is no
-/// direction, or the name of a probe. An empty list stands for x and y of everything with a contact, a disk or a bearing.
+/// direction, or the name of a probe. An empty list stands for x and y of everything with a
+/// contact, a disk or a bearing.
 /// @throws ModelError  for an unknown station or direction, and for tilts of what has none
 std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assembler,
                                      const std::string& list);
@@ -77,8 +78,8 @@ struct FrequencyResponse {
   std::vector<ResponsePair> pairs;
   std::vector<double> unbounded;  ///< undamped resonances, where responses are NaN [rad/s]
 
-  /// For each pair, whether its response is zero, or only rounding in files of before: nowhere above 1e-10
-  /// of the largest one to the same force, displacements and tilts each by themselves.
+  /// For each pair, whether its response is zero, or only rounding in files of before: nowhere
+  /// above 1e-10 of the largest one to the same force, displacements and tilts each by themselves.
   std::vector<bool> silent_pairs() const;
 
   static constexpr std::string_view group = "/frf";
@@ -98,9 +99,9 @@ struct FrequencyResponse {
 
 /// Solves (K - w^2 M + i w (C + Omega G)) q = f for a force at each end of `from`.
 ///
-/// Coefficients of bearings are those of a journal that whirls with the frequency of the force. A response
-/// that is nowhere above 1e-10 of the largest one of any point to the same force, displacements and tilts
-/// each by themselves, is rounding and becomes zero.
+/// Coefficients of bearings are those of a journal that whirls with the frequency of the force. A
+/// response that is nowhere above 1e-10 of the largest one of any point to the same force,
+/// displacements and tilts each by themselves, is rounding and becomes zero.
 /// @param Omega        spin speed [rad/s]
 /// @param frequencies  0 or more [rad/s]
 FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
@@ -108,8 +109,8 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
                                      const std::vector<ResponseEnd>& from,
                                      const std::vector<ResponseEnd>& to);
 
-/// Frequencies that show the lowest modes at a speed: even ones up to 1.2 times the highest of them,
-/// and some within the width of each peak [rad/s].
+/// Frequencies that show the lowest modes at a speed: even ones up to 1.2 times the highest of
+/// them, and some within the width of each peak [rad/s].
 std::vector<double> usual_frequencies(const Assembler& assembler, double Omega);
 
 }  // namespace whirl::inline dyn

@@ -24,8 +24,9 @@ PeakSides sides_of(const ResponsePeak& peak) {
   return has_below ? PeakSides::below : PeakSides::above;
 }
 
-/// Where 0.707 of a peak is reached on one side only, as it is where another peak is near or damping
-/// is heavy, the other side is taken to be as far: an estimate, as the standard asks for both.
+/// Where 0.707 of a peak is reached on one side only, as it is where another peak is near or
+/// damping is heavy, the other side is taken to be as far: an estimate, as the standard asks for
+/// both.
 LateralPeak lateral_peak(ResponsePeak peak, int of_case, const OperatingRange& range) {
   const PeakSides sides = sides_of(peak);
   if (sides == PeakSides::above) peak.below = 2.0 * peak.speed - peak.above;
@@ -71,7 +72,8 @@ struct Lateral {
     return s;
   }
 
-  /// Stations with a probe of the model across the shaft, each once; vibration is told along the major axis there.
+  /// Stations with a probe of the model across the shaft, each once; vibration is told along the
+  /// major axis there.
   std::vector<NamedPoint> at_probes() const {
     std::vector<NamedPoint> all;
     for (const NamedPoint& p : named_points(model, assembler)) {
@@ -214,7 +216,8 @@ Verdict verdict_of(double found, double limit, bool is_least) {
   return (is_least ? found >= limit : found <= limit) ? Verdict::passed : Verdict::failed;
 }
 
-/// Where a mode begins or ceases to grow at speeds up to the trip speed, a part of them is unstable.
+/// Where a mode begins or ceases to grow at speeds up to the trip speed, a part of them is
+/// unstable.
 void add_thresholds(const std::vector<Threshold>& thresholds, LateralReport& report) {
   for (const Threshold& t : thresholds) {
     if (t.speed < report.minimum_speed || t.speed > report.trip_speed) continue;

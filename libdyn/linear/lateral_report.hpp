@@ -1,6 +1,6 @@
 #pragma once
-/// The lateral analysis of a machine after [API617]: how it answers to unbalance, how far its critical
-/// speeds are from its own, how stable it is, and whether that is enough.
+/// The lateral analysis of a machine after [API617]: how it answers to unbalance, how far its
+/// critical speeds are from its own, how stable it is, and whether that is enough.
 
 #include <array>
 #include <cmath>
@@ -19,10 +19,11 @@
 
 namespace whirl::inline dyn {
 
-/// Speeds that a model tells of its machine; in their place the operating speed, and a trip speed of
-/// 1.05 times the maximum.
+/// Speeds that a model tells of its machine; in their place the operating speed, and a trip speed
+/// of 1.05 times the maximum.
 ///
-/// @param maximum  that is gone by instead of the model's [rad/s]; the minimum is no more then, and a trip
+/// @param maximum  that is gone by instead of the model's [rad/s]; the minimum is no more then, and
+/// a trip
 ///                 speed below it does not count; 0: that of the model
 /// @return         maximum 0 if there is no speed
 OperatingRange operating_range(const Model& model, double maximum = 0.0);
@@ -323,12 +324,12 @@ struct LateralStudy {
 
 /// Analyses a model with its oil films linearized; its own unbalance and bow are left out.
 ///
-/// Modes are those of critical speeds up to 1.5 times the maximum continuous speed; responses go from a
-/// tenth of it to that, at the stations of the model's probes, without any at bearings and oil films,
-/// and vibration is told along the major axis. For running clearances the unbalance is scaled so that the
-/// probes are at the vibration limit. Cross-coupled stiffness acts at the node that is nearest to the
-/// middle between the outermost journals, at the maximum continuous speed. A check that asks for what
-/// was not given is unknown, and says what is missing.
+/// Modes are those of critical speeds up to 1.5 times the maximum continuous speed; responses go
+/// from a tenth of it to that, at the stations of the model's probes, without any at bearings and
+/// oil films, and vibration is told along the major axis. For running clearances the unbalance is
+/// scaled so that the probes are at the vibration limit. Cross-coupled stiffness acts at the node
+/// that is nearest to the middle between the outermost journals, at the maximum continuous speed. A
+/// check that asks for what was not given is unknown, and says what is missing.
 ///
 /// @throws ModelError      if nothing carries the shaft, or there is none
 /// @throws NumericalError  as the analyses

@@ -59,14 +59,14 @@ bool is_among_lowest(const std::vector<ToldAt>& places, int count);
 
 /// Solutions computed beyond those that are wanted, for newcomers.
 inline constexpr int spare_solutions = 2;
-/// Up to which number shapes must agree: a little more than those of the lowest solutions at the first
-/// and the last value that can be computed, whichever is higher.
+/// Up to which number shapes must agree: a little more than those of the lowest solutions at the
+/// first and the last value that can be computed, whichever is higher.
 /// @param count  of these
 /// @throws NumericalError, ModelError  what the first value throws, if all throw
 double shape_limit(const std::vector<double>& values, const SolveShapes& solve, int count);
 
-/// Shapes of models that differ, told at the same points: the nodes of a first model by their places
-/// along the shaft, then its bodies. Between nodes of another mesh a shape is straight.
+/// Shapes of models that differ, told at the same points: the nodes of a first model by their
+/// places along the shaft, then its bodies. Between nodes of another mesh a shape is straight.
 class ShapeSampler {
  public:
   explicit ShapeSampler(const Assembler& first);

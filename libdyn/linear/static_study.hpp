@@ -1,6 +1,6 @@
 #pragma once
-/// A rotor at rest under gravity and constant forces as a result: its sag, what its bearings carry, where its journals run
-/// on their oil films, how its shaft bends.
+/// A rotor at rest under gravity and constant forces as a result: its sag, what its bearings carry,
+/// where its journals run on their oil films, how its shaft bends.
 
 #include <optional>
 #include <string>

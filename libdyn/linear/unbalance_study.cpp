@@ -97,7 +97,8 @@ std::vector<CVec> readings_of(const UnbalanceResponse& response, const Assembler
   return all;
 }
 
-/// The same of any response that is bounded: it is solved again if it lacks one of the points or the tilts.
+/// The same of any response that is bounded: it is solved again if it lacks one of the points or
+/// the tilts.
 std::vector<CVec> readings(const Assembler& assembler, const UnbalanceResponse& known) {
   const std::vector<Point> points = points_of(assembler);
   const std::vector<Probe>& probes = assembler.structure().probes;

@@ -34,8 +34,8 @@ struct Combination {
 
 /// The simplest combination of other frequencies that gives one, if there is any.
 ///
-/// Simple is what has a low order, then what has few terms. With enough numbers to choose from, some
-/// combination meets any frequency by chance: the search ends where one of twenty would.
+/// Simple is what has a low order, then what has few terms. With enough numbers to choose from,
+/// some combination meets any frequency by chance: the search ends where one of twenty would.
 ///
 /// @param f          signed [rad/s]
 /// @param others     signed, none of them near zero [rad/s]

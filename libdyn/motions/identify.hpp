@@ -125,8 +125,8 @@ struct ForcedLine {
   double frequency = 0.0;  ///< signed [rad/s]
 };
 
-/// Those of a rotor at a speed: the speed itself, and those of forces either way, as a force along a
-/// direction drives both.
+/// Those of a rotor at a speed: the speed itself, and those of forces either way, as a force along
+/// a direction drives both.
 std::vector<ForcedLine> forced_lines(const Assembler& assembler, double Omega);
 
 /// The line nearest to a peak, if it is one of them within the width of a spectral line; else null.

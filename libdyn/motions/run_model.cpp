@@ -14,8 +14,8 @@ namespace whirl::inline dyn {
 namespace {
 
 /// Bytes that a sample takes when most are in use: displacements and forces, the spectra of the
-/// coordinates and what their transform takes, and of a result file the trajectory or spectra with a
-/// copy of one dataset. Measured within 15 % for 4 and 8 coordinates, 2 to 13 stations.
+/// coordinates and what their transform takes, and of a result file the trajectory or spectra with
+/// a copy of one dataset. Measured within 15 % for 4 and 8 coordinates, 2 to 13 stations.
 double bytes_of_sample(int coordinates, std::size_t contacts, std::size_t written_stations) {
   constexpr double of_coordinate = 8.0 + 16.0, of_contact = 16.0, of_transform = 64.0;
   constexpr double of_station = 27.0;

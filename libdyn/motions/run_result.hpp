@@ -1,6 +1,6 @@
 #pragma once
-/// A run and its parts as results (libbase/structs/column.hpp): where it ended, how it moved, what its
-/// contacts did, its spectra.
+/// A run and its parts as results (libbase/structs/column.hpp): where it ended, how it moved, what
+/// its contacts did, its spectra.
 
 #include <memory>
 #include <optional>
@@ -321,8 +321,8 @@ struct StationSummary {
                       column("peaks_rotating", &S::peaks_rotating, "", "seen from the rotor")};
   }
 };
-/// Of all stations of a run; none without a motion. Of a motion that grew beyond all bounds there are
-/// no peaks.
+/// Of all stations of a run; none without a motion. Of a motion that grew beyond all bounds there
+/// are no peaks.
 std::vector<StationSummary> station_summaries(const Run& run);
 
 }  // namespace whirl::inline dyn

@@ -22,8 +22,8 @@ struct EarlierEnd {
   long revolution = 0;  ///< where forces do not repeat with it
 };
 
-/// The same at the phase at which the earlier motion ended, and in its revolution where forces do not
-/// repeat with it; nothing: there is none.
+/// The same at the phase at which the earlier motion ended, and in its revolution where forces do
+/// not repeat with it; nothing: there is none.
 MotionState start_state(const Model& model, const Scene& scene,
                         const std::optional<EarlierEnd>& earlier);
 

@@ -23,8 +23,8 @@ struct TransientOptions {
 long until_forces_repeat(const ContactSystem& system, long revolution);
 
 /// A motion after some revolutions, at phase 0: what is left of the revolution that it begins in is
-/// gone through in any case, and it goes on until its forces begin anew. Its outcome says whether it
-/// got there.
+/// gone through in any case, and it goes on until its forces begin anew. Its outcome says whether
+/// it got there.
 /// @throws NumericalError  if the system has no degrees of freedom
 Trajectory run_transient(const Scene& scene, const MotionState& start,
                          const TransientOptions& options);

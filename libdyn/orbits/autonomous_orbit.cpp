@@ -65,8 +65,8 @@ Mat rotation(const Mat& S, double angle) {
   return StateLayout(S.rows()).to_both(turn_of(S, angle));
 }
 
-/// Where a motion begins that is z as seen from the rotor and ends at phase 0, where both frames are
-/// the same, after an angle of the rotor [rad].
+/// Where a motion begins that is z as seen from the rotor and ends at phase 0, where both frames
+/// are the same, after an angle of the rotor [rad].
 MotionState start_before(const Mat& S, const Vec& z, double angle) {
   MotionState start;
   start.phase = std::clamp(std::ceil(angle / turn) * turn - angle, 0.0, std::nextafter(turn, 0.0));

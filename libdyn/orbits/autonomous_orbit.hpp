@@ -68,18 +68,20 @@ MotionState rotating_start(const Scene& scene, const Vec& z, double revolutions)
 /// The rotor as it is seen from its own frame, where unbalance stands still: states are turned back
 /// by the phase. Time does not occur there if nothing but the unbalance tells directions apart.
 ///
-/// @throws NumericalError  for gravity, anisotropic bearings, contacts off the axis, or a basis that
+/// @throws NumericalError  for gravity, anisotropic bearings, contacts off the axis, or a basis
+/// that
 ///                         is not closed under rotation
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance = flow_tolerance);
 
-/// The same of a scene at another value of a parameter, for the states of a first scene: see flow_of.
+/// The same of a scene at another value of a parameter, for the states of a first scene: see
+/// flow_of.
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
                              double tolerance = flow_tolerance);
 
 constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
 
-/// Time after which a motion from a start comes back to it nearest, as a first guess [s]; nothing if
-/// it does not come near, or stands still.
+/// Time after which a motion from a start comes back to it nearest, as a first guess [s]; nothing
+/// if it does not come near, or stands still.
 std::optional<double> recurrence(const Scene& scene, const Vec& start, long revolutions);
 
 }  // namespace whirl::inline dyn

@@ -15,10 +15,12 @@ namespace whirl::inline dyn {
 HarmonicProblem harmonic_problem(const ContactSystem& system);
 
 /// Its derivative by a parameter, as HarmonicEquations::slope takes it.
-/// @param slopes  of systems in the same coordinates; of contacts and films the system may have others
+/// @param slopes  of systems in the same coordinates; of contacts and films the system may have
+/// others
 HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& slopes);
 
-/// Fourier coefficients of the motion of all coordinates over the next revolutions, as if it repeated.
+/// Fourier coefficients of the motion of all coordinates over the next revolutions, as if it
+/// repeated.
 /// @param y  state at phase 0
 /// @return   n x (2 H + 1); the motion that the state stays at if the integration fails
 Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions);

@@ -13,7 +13,8 @@ namespace whirl::inline dyn {
 
 /// Equations of motion, forces of few displacements apart.
 ///
-///   eta'' + D eta' + K eta = f0 + fc cos(phase) + fs sin(phase) + sum_j B_j g_j(phase, U_j eta, U_j eta')
+///   eta'' + D eta' + K eta = f0 + fc cos(phase) + fs sin(phase) + sum_j B_j g_j(phase, U_j eta,
+///   U_j eta')
 struct HarmonicProblem {
   Mat K, D;
   Vec f0, fc, fs;
@@ -41,15 +42,16 @@ struct HarmonicProblem {
 ///   r = u - u_0 - H g(u),   H_k = U Z_k^-1 B,   Z_k = K + i w_k D - w_k^2,   w_k = k rate / period
 ///
 /// The unknowns are the Fourier coefficients of the displacements u where forces act, ports x
-/// (2 H + 1), whatever the number of coordinates. Where the linear part alone does not hold the rotor,
-/// or resonates without damping, springs are added to it and taken off the forces, which changes
-/// nothing.
+/// (2 H + 1), whatever the number of coordinates. Where the linear part alone does not hold the
+/// rotor, or resonates without damping, springs are added to it and taken off the forces, which
+/// changes nothing.
 ///
 /// @source [KrackGross2019], ch. 2 and 3.3
 class HarmonicEquations {
  public:
   /// @param problem  must live as long as the equations
-  /// @throws NumericalError  at an undamped resonance with a harmonic, or where a load is none of them
+  /// @throws NumericalError  at an undamped resonance with a harmonic, or where a load is none of
+  /// them
   HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics);
 
   Eigen::Index ports() const { return U_.rows(); }
@@ -78,7 +80,8 @@ class HarmonicEquations {
   ///   dr = -dU x - U dx,   Z dx = df + dB g + B dg - dZ x,   x = Z^-1 (f + B g)
   ///
   /// @param g   forces on them, as evaluated
-  /// @param by  the problem with its derivative by p in place of each number, of its forces those at
+  /// @param by  the problem with its derivative by p in place of each number, of its forces those
+  /// at
   ///            displacements that are held
   /// @return    nothing where a force has none
   std::optional<Mat> slope(const Mat& u, const Mat& g, const HarmonicProblem& by) const;

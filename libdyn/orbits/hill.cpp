@@ -22,7 +22,8 @@ constexpr double faint = 1e-4;                ///< multipliers below are not loo
 constexpr double least_band = 3.0;            ///< few harmonics are all that there are
 constexpr double resolved = 0.7;              ///< of the harmonics: modes that are faster are not
 
-/// (A - d/dt)^-1 on the Fourier coefficients of states, one after another: displacements, then rates.
+/// (A - d/dt)^-1 on the Fourier coefficients of states, one after another: displacements, then
+/// rates.
 class InverseHill {
  public:
   InverseHill(const HarmonicEquations& equations, const HarmonicEquations::Evaluation& at)
@@ -167,8 +168,8 @@ class Arnoldi {
   Eigen::Index vectors_ = 0, done_ = 0;
 };
 
-/// Exponents of a strip of width w: each once. Its lower edge, from -w to 0, is laid into the widest
-/// gap between imaginary parts.
+/// Exponents of a strip of width w: each once. Its lower edge, from -w to 0, is laid into the
+/// widest gap between imaginary parts.
 std::vector<Complex> within_a_strip(const std::vector<Complex>& all, double w) {
   std::vector<double> edges;
   for (const Complex& lambda : all) {
@@ -205,8 +206,8 @@ CVec mean_exponents(const HarmonicEquations& equations, const HarmonicEquations:
   return eigenvalues(problem.scale.cwiseInverse().asDiagonal() * A * problem.scale.asDiagonal());
 }
 
-/// Harmonics of the orbit, or more if the modes of a mean ask for it and that is cheap. More than that
-/// does not help: the same cut for orbit and deviations is the more exact one.
+/// Harmonics of the orbit, or more if the modes of a mean ask for it and that is cheap. More than
+/// that does not help: the same cut for orbit and deviations is the more exact one.
 int enough_harmonics(const HarmonicEquations& equations, const CVec& mean, int orbit) {
   const double w = equations.frequency(), T = 2.0 * std::numbers::pi / w;
   double fastest = 0.0;

@@ -14,15 +14,16 @@ namespace whirl::inline dyn {
 
 struct OrbitMeasure {
   std::vector<double> radii;  ///< largest distance of each station from the axis [m]
-  /// Work that unbalance and forces do in a revolution: what damping, contacts and films take, less what
-  /// friction at the rim brings in from the spin [J].
+  /// Work that unbalance and forces do in a revolution: what damping, contacts and films take, less
+  /// what friction at the rim brings in from the spin [J].
   double work = 0.0;
-  /// Largest reading of each probe of the model less its smallest, over the period [m]; of an orbit that
-  /// repeats as seen from the rotor over a long time, in which it comes by the probe at all its places: twice
-  /// its largest distance from the axis. As the radii, of ten instants a step of the integrator, or eight a
-  /// harmonic.
+  /// Largest reading of each probe of the model less its smallest, over the period [m]; of an orbit
+  /// that repeats as seen from the rotor over a long time, in which it comes by the probe at all
+  /// its places: twice its largest distance from the axis. As the radii, of ten instants a step of
+  /// the integrator, or eight a harmonic.
   std::vector<double> probe_peak_to_peak;
-  Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns) [m]
+  Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns)
+                 ///< [m]
 };
 
 /// Of the motion from a state at phase 0.

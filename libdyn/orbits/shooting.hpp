@@ -30,8 +30,8 @@ struct Flow {
   /// Moves several starts on by as many revolutions; a passage each.
   std::function<std::vector<FlowResult>(std::span<const Vec> starts, long revolutions, WithTangent)>
       go;
-  /// Revolutions after which the map is the same again: those of an orbit are a multiple of it, and so
-  /// are those of a segment.
+  /// Revolutions after which the map is the same again: those of an orbit are a multiple of it, and
+  /// so are those of a segment.
   long repeats = 1;
 };
 

@@ -39,8 +39,8 @@ class AttractorNumbers {
 };
 
 /// A start near another one: every coordinate moved by -size to size length scales, every velocity
-/// by as much times the rate of the phase; drawn again where a journal would be outside its oil film.
-/// The same numbers give the same start on every machine.
+/// by as much times the rate of the phase; drawn again where a journal would be outside its oil
+/// film. The same numbers give the same start on every machine.
 MotionState random_start(const ContactSystem& system, const MotionState& around, double size,
                          std::uint64_t seed, std::uint64_t number);
 

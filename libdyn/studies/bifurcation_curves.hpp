@@ -50,8 +50,8 @@ struct BifurcationCurves {
 /// Value of the first parameter at a point of a curve.
 double first_value(const ParameterRange& along, const BranchPoint& point);
 
-/// Curves through every fold, period doubling, Neimark-Sacker point and grazing of complete branches, at
-/// their first points.
+/// Curves through every fold, period doubling, Neimark-Sacker point and grazing of complete
+/// branches, at their first points.
 /// @param tree  whose bifurcations they are
 BifurcationCurves begin_curves(const PlaneScenes& scenes, const BranchTree& tree,
                                const BifurcationCurveOptions& options);

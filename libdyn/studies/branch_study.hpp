@@ -32,8 +32,8 @@ struct BranchScenes {
   PlaneScenes plane;
 };
 
-/// Follows branches, and then the curves of their bifurcations; threads and processes share the walks.
-/// What is found depends neither on them nor on the stretches.
+/// Follows branches, and then the curves of their bifurcations; threads and processes share the
+/// walks. What is found depends neither on them nor on the stretches.
 ///
 /// @param study    what there is already, which is gone on with, bit by bit; may be an empty_tree
 /// @param settled  a state near the first orbit, asked where there is no branch; nothing: stop

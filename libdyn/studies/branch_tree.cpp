@@ -132,8 +132,8 @@ ContinuationOptions walk_options(const BranchTreeOptions& options, double direct
   return how;
 }
 
-/// The number of the first branch that would be walked again from where another one ends, among those
-/// that come behind it; nothing: there is none.
+/// The number of the first branch that would be walked again from where another one ends, among
+/// those that come behind it; nothing: there is none.
 std::optional<std::size_t> same_branch(const std::vector<TracedBranch>& branches,
                                        std::size_t number, double range) {
   const Branch& done = branches[number].branch;

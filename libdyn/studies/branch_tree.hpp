@@ -74,9 +74,9 @@ WalkNews walk_branch(const ParameterScenes& scenes, const BranchTreeOptions& opt
 
 /// A tree that grows by stretches of its branches, several of them at a time.
 ///
-/// It becomes what it is where one branch is walked after the other, whichever is done first: those that
-/// begin on a branch come behind the others once it and all before it have ended, and then it is seen
-/// which branch was walked twice. A first branch that closes needs no walk the other way.
+/// It becomes what it is where one branch is walked after the other, whichever is done first: those
+/// that begin on a branch come behind the others once it and all before it have ended, and then it
+/// is seen which branch was walked twice. A first branch that closes needs no walk the other way.
 class TreeGrowth {
  public:
   struct OpenWalk {

@@ -32,8 +32,8 @@ constexpr double most_repeating = 4000;  ///< revolutions, likewise
 constexpr long most_flight =
     1'000'000'000;  ///< revolutions that a motion is followed in closed form
 
-/// Time after which a motion repeats under loads that nothing turns with, a few of their periods; 0: it
-/// does not, or something turns [s].
+/// Time after which a motion repeats under loads that nothing turns with, a few of their periods;
+/// 0: it does not, or something turns [s].
 double repeating_time(const ContactSystem& system, const MotionState& from, double tolerance) {
   const auto together = load_period(system);
   if (!together) return 0.0;
@@ -268,8 +268,8 @@ class BatchClassifier {
     return 0;
   }
 
-  /// Closes the motions to which no contact can happen any more: they are those of the linear rotor,
-  /// whose transient and multipliers are known.
+  /// Closes the motions to which no contact can happen any more: they are those of the linear
+  /// rotor, whose transient and multipliers are known.
   void fly() {
     if (by_steps()) return;
     std::vector<OrbitCandidate> free;
@@ -304,8 +304,8 @@ class BatchClassifier {
     close(candidates);
   }
 
-  /// Tells motions that repeat with forces which take longer to do so than is searched, or that do not
-  /// repeat with the revolutions. Their exponents stay the means that they are.
+  /// Tells motions that repeat with forces which take longer to do so than is searched, or that do
+  /// not repeat with the revolutions. Their exponents stay the means that they are.
   void search_with_forces() {
     long revolutions = 0;
     for (const ClassifyCandidate* s : open_) {

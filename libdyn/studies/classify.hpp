@@ -38,8 +38,9 @@ struct ClassifyOptions {
   /// That is looked for [revolutions]; that after which forces repeat, if it is longer, too.
   int longest_period = 32;
   long sections = 0;  ///< how many of the last ones are kept
-  /// Not 0: by the classical Runge-Kutta method with so many equal steps a revolution, to see what studies
-  /// that use it see. What repeats within 1e-4 length scales is periodic then, and nothing is proven.
+  /// Not 0: by the classical Runge-Kutta method with so many equal steps a revolution, to see what
+  /// studies that use it see. What repeats within 1e-4 length scales is periodic then, and nothing
+  /// is proven.
   long rk4_steps = 0;
   Eigen::Index path = 0;  ///< at how many numbers of revolutions exponents are told at most
   /// Called now and then with the revolutions done by all motions together; false: stop.
@@ -51,8 +52,8 @@ struct Classification {
   MotionKind kind = MotionKind::periodic;
   int period =
       0;  ///< of a periodic motion [revolutions]; 0: not periodic, or longer than looked for
-  /// Of a periodic motion under loads of which none turns with the rotor: time after which it repeats,
-  /// in no whole number of revolutions in most cases [s]; 0: not looked for, or not found.
+  /// Of a periodic motion under loads of which none turns with the rotor: time after which it
+  /// repeats, in no whole number of revolutions in most cases [s]; 0: not looked for, or not found.
   double period_time = 0.0;
   /// All Lyapunov exponents per revolution, descending. Of a proven periodic motion they are those
   /// of its Floquet multipliers, else means.
@@ -69,8 +70,8 @@ struct Classification {
   /// Of a motion that has not settled: after how many revolutions since its start it would have, by
   /// the decay that was seen; 0: none was seen.
   long settles_after = 0;
-  /// Of the set that the sections at phase 0 lie on: 1 for a closed curve (see section_geometry.hpp);
-  /// NaN where the orbit is proven, or too few sections are known.
+  /// Of the set that the sections at phase 0 lie on: 1 for a closed curve (see
+  /// section_geometry.hpp); NaN where the orbit is proven, or too few sections are known.
   double section_dimension = std::numeric_limits<double>::quiet_NaN();
   long revolutions =
       0;               ///< that contacts were measured over: the period, or all that were averaged
@@ -96,9 +97,9 @@ struct ClassifyCandidate {
 /// Integrates motions through their transients, together in the lanes of a batch.
 ///
 /// Ever later, the sections at phase 0 are searched for a period p. Newton's method on the p-th
-/// return map, with the tangent, then finds the orbit itself; if its multipliers lie within the unit
-/// circle and it is where the motion was, the motion is periodic: this is proven, and the rest of
-/// the transient is left out.
+/// return map, with the tangent, then finds the orbit itself; if its multipliers lie within the
+/// unit circle and it is where the motion was, the motion is periodic: this is proven, and the rest
+/// of the transient is left out.
 ///
 /// @throws NumericalError  if a system has no coordinates
 /// @source [LeineNijmeijer2004] for multipliers of nonsmooth flows
@@ -106,8 +107,8 @@ void settle(std::span<ClassifyCandidate> motions, const ClassifyOptions& options
 
 /// Tells what those motions are that are not proven to be periodic, from averaged exponents.
 ///
-/// A motion is hyperchaotic or chaotic with two or one of them above zero, as estimate_exponents has
-/// it; else it is quasi-periodic if the largest counts as zero or forces do not repeat, and
+/// A motion is hyperchaotic or chaotic with two or one of them above zero, as estimate_exponents
+/// has it; else it is quasi-periodic if the largest counts as zero or forces do not repeat, and
 /// periodic otherwise, unless means over
 /// its sections still change by more than 2 % of their spread: then it has not settled. What decays
 /// has a time after which it would have; without contact this follows from the linear rotor.

@@ -9,22 +9,23 @@ namespace whirl::inline dyn {
 
 struct ExponentEstimate {
   Vec exponents;  ///< descending [1/revolution]
-  /// An exponent of zero comes out within +-this [1/revolution]: (1 + ln T) / T for T revolutions, as
-  /// tangents of a torus grow no faster than T.
+  /// An exponent of zero comes out within +-this [1/revolution]: (1 + ln T) / T for T revolutions,
+  /// as tangents of a torus grow no faster than T.
   double zero = 0.0;
   /// The largest exponent of 99 of 100 motions is within +-this of its limit [1/revolution].
   double resolution = 0.0;
 };
 
-/// Means of the growth per revolution, without the first quarter of the revolutions, in which tangents
-/// turn to where they grow most.
+/// Means of the growth per revolution, without the first quarter of the revolutions, in which
+/// tangents turn to where they grow most.
 ///
 ///   resolution = 2 zero + 3.5 s / sqrt(16),   s: standard deviation of the means of 16 batches
 ///
 /// The first part is what is bounded, the second one chance; the factors are measured:
 /// bench/exponent_coverage.cpp, docs/validation.md.
 ///
-/// @param growths  logarithms of what orthogonal tangents have grown by, a row for each, a column per
+/// @param growths  logarithms of what orthogonal tangents have grown by, a row for each, a column
+/// per
 ///                 revolution, at least one of each
 /// @source [Benettin1980] for the means
 ExponentEstimate estimate_exponents(const Mat& growths);

@@ -21,12 +21,13 @@ struct Monitor {
   /// Called in the caller's thread with the result so far: now and then, at the end, and before an
   /// exception leaves.
   std::function<void(const Result&)> save{};
-  /// Of a study of many points, in place of saving now and then: called in the caller's thread with the
-  /// result so far and the points that are new since the last call; before the last saving, too.
+  /// Of a study of many points, in place of saving now and then: called in the caller's thread with
+  /// the result so far and the points that are new since the last call; before the last saving,
+  /// too.
   std::function<void(const Result&, std::span<const std::size_t> points)> add{};
 
-  /// Processes that share the work, this one among them; null: it is alone. They must be called with
-  /// the same work; studies of many points share it, see run_points.
+  /// Processes that share the work, this one among them; null: it is alone. They must be called
+  /// with the same work; studies of many points share it, see run_points.
   const Ranks* ranks = nullptr;
 
   bool stops() const { return (is_stopped && is_stopped()) || (ranks && ranks->is_told_to_stop()); }

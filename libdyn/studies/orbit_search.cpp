@@ -34,7 +34,8 @@ Flow until(const std::function<bool()>& stops, Flow flow) {
   return flow;
 }
 
-/// The orbit near where a motion gets, without its tangents; nothing: there is none, or it was stopped.
+/// The orbit near where a motion gets, without its tangents; nothing: there is none, or it was
+/// stopped.
 std::optional<PeriodicOrbit> orbit_near(const Flow& flow, Trajectory t,
                                         const OrbitSearchOptions& options,
                                         const std::function<bool()>& stops) {

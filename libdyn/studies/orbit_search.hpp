@@ -63,8 +63,9 @@ struct OrbitSearch {
 };
 
 /// Newton's method from random starts, each after some revolutions. Orbits are the same where their
-/// states are, begun at any revolution of their period. Threads and processes share the starts; what
-/// is found does not depend on them: a search that is stopped has what all of its first starts lead to.
+/// states are, begun at any revolution of their period. Threads and processes share the starts;
+/// what is found does not depend on them: a search that is stopped has what all of its first starts
+/// lead to.
 /// @param around   what the starts are near
 /// @param monitor  told the starts; nothing is saved
 OrbitSearch search_orbits(const Scene& scene, const MotionState& around,

@@ -1,5 +1,6 @@
 #pragma once
-/// What of orbits and branches goes from one process to another, and back: see libbase/structs/travel.hpp.
+/// What of orbits and branches goes from one process to another, and back: see
+/// libbase/structs/travel.hpp.
 
 #include "libdyn/branches/branch.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"

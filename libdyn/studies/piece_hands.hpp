@@ -23,8 +23,8 @@ namespace whirl::inline dyn {
 /// Between two letters that say nothing but that a process is alive.
 constexpr std::chrono::seconds alive_every{5};
 
-/// Threads of this process and, where it leads others, of these. Each thread is given the piece that it
-/// computes and one more that waits, so that none is idle while letters are on their way.
+/// Threads of this process and, where it leads others, of these. Each thread is given the piece
+/// that it computes and one more that waits, so that none is idle while letters are on their way.
 template <class Row, class Given>
 class PieceHands {
  public:

@@ -23,13 +23,13 @@ struct OpenPiece {
 /// Where pieces come from, and what becomes of them; all is called in the calling thread.
 template <class Row, class Given>
 struct PieceFlow {
-  /// The next piece for so many threads. Nothing: there is none before another one is kept, or none at
-  /// all.
+  /// The next piece for so many threads. Nothing: there is none before another one is kept, or none
+  /// at all.
   std::function<std::optional<OpenPiece<Given>>(int threads)> next{};
   /// Takes in a piece that is whole; pieces come in any order.
   std::function<void(FinishedPiece<Row>)> keep{};
-  /// Saves what was taken in, if that is not saved: at the end, before an exception leaves, and before
-  /// it is waited for processes that were told to stop.
+  /// Saves what was taken in, if that is not saved: at the end, before an exception leaves, and
+  /// before it is waited for processes that were told to stop.
   std::function<void()> save{};
 };
 

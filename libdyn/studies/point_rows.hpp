@@ -15,8 +15,8 @@
 namespace whirl::inline dyn {
 
 /// Rows of a study, one per point; none where a point is not computed. They are kept as the
-/// bytes of their `travel`, and made again where they are asked for: a row is a value, whose parts are
-/// gone with it.
+/// bytes of their `travel`, and made again where they are asked for: a row is a value, whose parts
+/// are gone with it.
 template <class Row>
 class PointRows {
  public:

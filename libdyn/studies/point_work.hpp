@@ -28,11 +28,11 @@ struct PointWork {
   Stripe stripe{};                ///< the points that are computed, where pieces are cut
   /// That do the work; 0: the calling one. Where pieces are prepared, one of them does that.
   int threads = 1;
-  /// Makes what a piece is given, in order and in the calling thread; none for pieces that are done.
-  /// May be empty.
+  /// Makes what a piece is given, in order and in the calling thread; none for pieces that are
+  /// done. May be empty.
   std::function<Given(const Piece&)> prepare{};
-  /// The rows of a piece, in any thread of any process: the same for the same points and what they are
-  /// given, bit by bit.
+  /// The rows of a piece, in any thread of any process: the same for the same points and what they
+  /// are given, bit by bit.
   std::function<std::vector<Row>(const Piece&, Given&)> compute{};
   /// What a piece has when it is stopped is worth keeping, too.
   bool keeps_parts = false;

@@ -1,6 +1,6 @@
 #pragma once
-/// What is seen of a classified motion: sections and spectra at stations, how far they move, and where
-/// contacts touch.
+/// What is seen of a classified motion: sections and spectra at stations, how far they move, and
+/// where contacts touch.
 
 #include <tuple>
 #include <vector>

@@ -10,7 +10,8 @@
 
 namespace whirl::inline dyn {
 
-/// Largest multiplier of an orbit that attracts; the error of a multiplier is below the rest to one.
+/// Largest multiplier of an orbit that attracts; the error of a multiplier is below the rest to
+/// one.
 constexpr double largest_attracting = 1.0 - 1e-7;
 
 /// An orbit that is looked for.

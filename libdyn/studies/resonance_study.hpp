@@ -98,8 +98,8 @@ struct ResonanceStudy {
 /// The model at another speed, reduced.
 std::shared_ptr<const Scene> scene_at_speed(const Model& model, double speed);
 
-/// Finds the resonances between some speeds, and bouncing motions near them if that is asked for, which
-/// threads and processes share.
+/// Finds the resonances between some speeds, and bouncing motions near them if that is asked for,
+/// which threads and processes share.
 /// @throws NumericalError  as campbell
 ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
                                const ResonanceOptions& options,

@@ -17,10 +17,10 @@ struct Drift {
 
 /// Drift of sections of one motion.
 ///
-/// Averages are smooth (see smooth_weights), over halves of the sections that begin at their first, at
-/// a quarter and at the middle: a_1, a_2, a_3. On a torus they agree to many digits, in chaos
-/// to one over the root of their number. What decays to where it stays,  a(k) = a + b e^(-rate k),
-/// has  e^(-rate n / 4) = (a_3 - a_2) / (a_2 - a_1)  for n sections.
+/// Averages are smooth (see smooth_weights), over halves of the sections that begin at their first,
+/// at a quarter and at the middle: a_1, a_2, a_3. On a torus they agree to many digits, in chaos to
+/// one over the root of their number. What decays to where it stays,  a(k) = a + b e^(-rate k), has
+/// e^(-rate n / 4) = (a_3 - a_2) / (a_2 - a_1)  for n sections.
 ///
 /// @param points  one section per column, at least 8, in units in which all directions count alike
 /// @source [Das2017] for the averages, [SanderMeiss2020] for telling order from chaos by them

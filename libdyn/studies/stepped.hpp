@@ -1,5 +1,6 @@
 #pragma once
-/// Motions by the classical Runge-Kutta method with equal steps, as many published studies have them.
+/// Motions by the classical Runge-Kutta method with equal steps, as many published studies have
+/// them.
 
 #include <span>
 
@@ -10,13 +11,13 @@ namespace whirl::inline dyn {
 /// How far copies of a motion are away from it, from which its exponents are taken [length scales].
 constexpr double copies_apart = 1e-8;
 
-/// Integrates trajectories by the method of methods/rk4.hpp in this thread: what integrate_batch gives,
-/// but sections, measures and exponents of the motion that the steps make. Slow.
+/// Integrates trajectories by the method of methods/rk4.hpp in this thread: what integrate_batch
+/// gives, but sections, measures and exponents of the motion that the steps make. Slow.
 ///
 /// Exponents come from copies of the motion, as many as it has states, which begin displaced along
-/// orthogonal directions and are integrated as it is; after every revolution their displacements are
-/// made orthogonal again, and as long as they were. No variational equations are integrated, so none are
-/// wrong over touches.
+/// orthogonal directions and are integrated as it is; after every revolution their displacements
+/// are made orthogonal again, and as long as they were. No variational equations are integrated, so
+/// none are wrong over touches.
 ///
 /// @param options  without tangents; its tolerance, order and threads mean nothing here
 /// @param steps    of a revolution

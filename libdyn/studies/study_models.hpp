@@ -46,7 +46,8 @@ struct StudyMotion {
 };
 
 /// Makes the scene of a motion and puts it where it begins.
-/// @param revolution  of the motion that this one goes on from, for forces that do not repeat with it
+/// @param revolution  of the motion that this one goes on from, for forces that do not repeat with
+/// it
 /// @throws ModelError  as StudyModels
 StudyMotion begin_motion(const StudyModels& models, std::span<const double> values,
                          const FullState* from = nullptr, long revolution = 0);

@@ -1,5 +1,6 @@
 #pragma once
-/// What of studies goes from one process to another, and back, beside their rows: see libbase/structs/travel.hpp.
+/// What of studies goes from one process to another, and back, beside their rows: see
+/// libbase/structs/travel.hpp.
 
 #include "libbase/structs/travel.hpp"
 #include "libdyn/motions/start.hpp"

@@ -54,14 +54,15 @@ struct RunningClearance {
   }
 };
 
-/// Clearances of contacts, oil films, and of bearings and seals that tell one, of a rotor that rests,
-/// the closest first.
+/// Clearances of contacts, oil films, and of bearings and seals that tell one, of a rotor that
+/// rests, the closest first.
 /// @param displacement  full vector, see DofMap [m, rad]
 std::vector<RunningClearance> running_clearances(const Model& model, const Assembler& assembler,
                                                  const Vec& displacement);
 
 /// The same clearances where a motion takes most of each, in the order of the model.
-/// @param basis, coordinates  displacements of all points (full vectors) are basis * coordinates, a column
+/// @param basis, coordinates  displacements of all points (full vectors) are basis * coordinates, a
+/// column
 ///                            an instant
 std::vector<RunningClearance> largest_distances(const Model& model, const Assembler& assembler,
                                                 const Mat& basis, const Mat& coordinates);

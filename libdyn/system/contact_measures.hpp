@@ -23,8 +23,8 @@ struct ContactTimes {
   std::string name;
   double in_touch = 0.0;  ///< with any of its blades [s]
   double sticking = 0.0;  ///< [s]
-  /// Times it came to touch, all blades together. One whose force lets go and presses again while the
-  /// rotor stays beyond the surface, as damped laws do, has not come to touch again.
+  /// Times it came to touch, all blades together. One whose force lets go and presses again while
+  /// the rotor stays beyond the surface, as damped laws do, has not come to touch again.
   double impacts = 0.0;
   double max_normal = 0.0;      ///< of one blade [N]
   double max_tangential = 0.0;  ///< of one blade [N]

@@ -59,7 +59,8 @@ std::array<D, P> force_of(const Friction& f, const Number& mu, const Number& tol
   return g;
 }
 
-/// Samples of the force of a contact of P ports, with its slopes: (u, u') are variables 0 ... 2 P - 1.
+/// Samples of the force of a contact of P ports, with its slopes: (u, u') are variables 0 ... 2 P
+/// - 1.
 template <int P>
 struct ForceSamples {
   static constexpr int ports = P;
@@ -90,7 +91,8 @@ struct ForceSamples {
     }
     return s;
   }
-  /// What an event adds to slopes: the force jumps by g where h = 0, whose slopes and rate are given.
+  /// What an event adds to slopes: the force jumps by g where h = 0, whose slopes and rate are
+  /// given.
   PortSample jump(const PortVec& g, const D& h, double h_by_theta, double theta) const {
     PortSample s{theta, 1.0 / turn, PortVec::Zero(P), PortMat(P, P), PortMat(P, P)};
     s.by_u = g * h.slopes.template head<P>().transpose() / std::abs(h_by_theta);
@@ -197,7 +199,8 @@ bool film_law_slope(const SlopedFilm& film, double faster, const PortVec& u, con
   return true;
 }
 
-/// Rows that a contact's force acts along, and what it does there: 2 ports, or 4 with friction apart.
+/// Rows that a contact's force acts along, and what it does there: 2 ports, or 4 with friction
+/// apart.
 Mat closing_and_rubbing(const ReducedContact& c) {
   Mat U(c.rubs_apart() ? 4 : 2, c.U.cols());
   U.topRows(2) = c.U;

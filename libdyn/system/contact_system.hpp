@@ -83,8 +83,8 @@ struct ContactForces {
   Vec2 t() const { return {-n(1), n(0)}; }
 };
 
-/// When: a phase within a revolution, and which revolution that is. Only loads that do not repeat with
-/// the revolution ask for the latter.
+/// When: a phase within a revolution, and which revolution that is. Only loads that do not repeat
+/// with the revolution ask for the latter.
 struct Instant {
   double phase = 0.0;  ///< [rad]
   long revolution = 0;
@@ -110,8 +110,8 @@ struct Oscillation {
 ///   eta'' = f0 + fc cos(phase) + fs sin(phase) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j)
 ///           + sum_i B_i F_i + loads of other frequencies
 ///
-/// M is multiplied out. The state of an integration is (eta, eta'), as its layout() has it; phase = Omega t.
-/// A value: copy it, one per thread.
+/// M is multiplied out. The state of an integration is (eta, eta'), as its layout() has it; phase =
+/// Omega t. A value: copy it, one per thread.
 class ContactSystem {
  public:
   /// @throws ModelError  for contacts at stations without inertia
@@ -229,8 +229,8 @@ ContactForces kinematics(const ReducedContact& contact, double phase,
 /// How far beyond its surface a contact is, of order one; above zero in touch.
 double beyond_surface(const ReducedContact& contact, const ContactForces& f);
 
-/// The same along a path of d = U eta - offset over the clearance, polynomials of s; nothing where it
-/// is none.
+/// The same along a path of d = U eta - offset over the clearance, polynomials of s; nothing where
+/// it is none.
 std::optional<Polynomial> beyond_surface(const ReducedContact& contact, const PathPowers& x,
                                          const PathPowers& y);
 

@@ -13,8 +13,8 @@ namespace whirl::inline dyn {
 ///
 /// Slopes by a parameter hold the shapes (slope_of). With the forces that the parameter makes in
 /// them answered statically, what is left out is the inertia of these answers: the square of the
-/// frequency over that of the lowest mode that is left out. A bearing or a mass adds two shapes or four.
-/// Nothing is added for contacts, films and unbalances, and to scenes that are not reduced.
+/// frequency over that of the lowest mode that is left out. A bearing or a mass adds two shapes or
+/// four. Nothing is added for contacts, films and unbalances, and to scenes that are not reduced.
 ///
 /// @param model   of the scene
 /// @param others  the same with another value of one parameter each

@@ -44,21 +44,22 @@ class EventWatcher {
   /// The function of stick_limit.
   double stick_margin(int contact, const Hold& hold) const;
 
-  /// Changes the states of the contacts at an event. Contacts that slip alike begin and end to stick
-  /// together.
+  /// Changes the states of the contacts at an event. Contacts that slip alike begin and end to
+  /// stick together.
   void apply(const Event& event, const Instant& at, const double* y, ContactStates& states);
 
   /// A step without an event was made: nothing starts on a surface any more.
   void moved_on();
 
-  /// Kinds that can end a contact's state. Of contacts that stick and slip alike, the first is asked
-  /// for all of them.
+  /// Kinds that can end a contact's state. Of contacts that stick and slip alike, the first is
+  /// asked for all of them.
   std::span<const EventKind> kinds(int contact, const ContactStates& states) const;
 
   /// Whether the function of this kind is zero by definition at the start of the next step.
   bool on_surface(int contact, EventKind kind) const;
 
-  /// Whether its slope is zero there, too: a slip that begins where sticking ends, as T is mu N then.
+  /// Whether its slope is zero there, too: a slip that begins where sticking ends, as T is mu N
+  /// then.
   bool is_level(int contact, EventKind kind) const;
 
  private:

@@ -25,9 +25,9 @@ struct RotorOnFilms {
 ///
 ///   (K + Omega H) q = f + sum_i U_i^T F_i(U_i q)
 ///
-/// is solved in the displacements U_i q of the journals alone: the rotor between them is linear, and
-/// acts on them as a load and a stiffness, which are found once if they do not change with speed
-/// (PortBalance).
+/// is solved in the displacements U_i q of the journals alone: the rotor between them is linear,
+/// and acts on them as a load and a stiffness, which are found once if they do not change with
+/// speed (PortBalance).
 class FilmEquilibrium {
  public:
   explicit FilmEquilibrium(const Model& model);
@@ -38,8 +38,8 @@ class FilmEquilibrium {
   /// @throws NumericalError  if there is none: without speed a film carries nothing
   std::shared_ptr<const RotorOnFilms> at(double Omega) const;
 
-  /// Coefficients of the films there, one after the other; found once for each speed and kept, as many
-  /// analyses ask for them again.
+  /// Coefficients of the films there, one after the other; found once for each speed and kept, as
+  /// many analyses ask for them again.
   const std::vector<BearingCoefficients>& coefficients(double Omega) const;
 
  private:
@@ -50,8 +50,8 @@ class FilmEquilibrium {
 /// Whether linear analyses know any film of a model.
 bool has_linear_films(const Model& model);
 
-/// The structure of a model for linear analyses: films are connections with the coefficients that they
-/// have, at every speed, where their journals run then. Without films it is that of the model.
+/// The structure of a model for linear analyses: films are connections with the coefficients that
+/// they have, at every speed, where their journals run then. Without films it is that of the model.
 Structure linear_structure(const Model& model);
 
 /// The system of a scene as linear analyses have it: with films, if the model has any.

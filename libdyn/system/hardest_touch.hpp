@@ -31,8 +31,8 @@ class HardestTouches {
   std::vector<HardestTouch> contacts_{};
 };
 
-/// Depth at which a contact law presses with a normal force, at rest [m]. NaN: the force does not begin
-/// with the depth, so that it does not tell one.
+/// Depth at which a contact law presses with a normal force, at rest [m]. NaN: the force does not
+/// begin with the depth, so that it does not tell one.
 double depth_under(const AnyContactLaw<>& law, double normal);
 
 /// What friction at a contact takes from a rotor whose speed is kept.

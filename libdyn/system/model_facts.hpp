@@ -20,8 +20,8 @@ struct ModelFacts {
   long contacts = 0;
   std::optional<double> center_of_mass{};  ///< along the shaft [m]; nothing: there is no shaft
   double polar_inertia = 0.0;              ///< [kg.m^2]
-  /// Of shaft and disks about a diameter through their center of mass [kg.m^2]; nothing: there is no
-  /// shaft.
+  /// Of shaft and disks about a diameter through their center of mass [kg.m^2]; nothing: there is
+  /// no shaft.
   std::optional<double> transverse_inertia{};
   std::vector<BearingLoad> bearing_loads{};    ///< of bearings and oil films at rest
   std::vector<RunningClearance> clearances{};  ///< at rest, the closest first

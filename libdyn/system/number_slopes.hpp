@@ -57,7 +57,8 @@ class NumberSlopes {
   std::vector<Pair> pairs_;
 };
 
-/// @throws NumericalError  where a parameter has no derivative, as motions change their kind with it
+/// @throws NumericalError  where a parameter has no derivative, as motions change their kind with
+/// it
 void require_smooth(const ContactSystem& system, const SystemSlope& parameter);
 
 }  // namespace whirl::inline dyn

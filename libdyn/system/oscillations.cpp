@@ -77,8 +77,8 @@ bool follows_the_speed(const ContactSystem& system) {
 
 namespace {
 
-/// How often the first of some loads repeats until all of them do, by their frequencies over another
-/// one; 0: they never do.
+/// How often the first of some loads repeats until all of them do, by their frequencies over
+/// another one; 0: they never do.
 long repeats_of_first(const std::vector<double>& ratios) {
   long together = 1;
   for (const double ratio : ratios) {

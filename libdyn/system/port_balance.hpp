@@ -17,7 +17,8 @@ struct IndependentRows {
 IndependentRows independent_rows(const Mat& rows);
 
 /// A linear rotor as its ports feel it. Ports are the displacements [m] on which films and contacts
-/// act, two for each film, then for each contact; w are independent ones, by which the rotor is held.
+/// act, two for each film, then for each contact; w are independent ones, by which the rotor is
+/// held.
 struct HeldRotor {
   IndependentRows ports;
   Vec rest;    ///< coordinates at w = 0

@@ -18,8 +18,9 @@ using PortMat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_po
 ///
 ///   1 / (2 pi) int g phi d(theta) = sum_i share_i g_i phi(theta_i)
 ///
-/// and the same for the derivative by the motion, with by_u and by_rate in place of g. Where a force
-/// jumps, the instant of the jump moves with the motion: a sample without force but with slopes.
+/// and the same for the derivative by the motion, with by_u and by_rate in place of g. Where a
+/// force jumps, the instant of the jump moves with the motion: a sample without force but with
+/// slopes.
 struct PortSample {
   double theta = 0.0;  ///< angle within the period, 0 to 2 pi
   double share = 0.0;  ///< of the period
@@ -33,8 +34,8 @@ struct PortForces {
   std::string name;
   Mat U;  ///< ports x n [m]
   Mat B;  ///< n x ports
-  /// Samples of the forces on a motion of these ports; more of them the more harmonics it has. False:
-  /// there is no force, as outside an oil film.
+  /// Samples of the forces on a motion of these ports; more of them the more harmonics it has.
+  /// False: there is no force, as outside an oil film.
   std::function<bool(const Periodic& motion, std::vector<PortSample>&)> sample;
 };
 

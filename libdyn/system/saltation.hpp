@@ -22,8 +22,8 @@ struct Saltation {
   double log_determinant() const;
 };
 
-/// Saltation of an event; nothing where the acceleration does not jump. It jumps where a damped linear
-/// contact touches, and where friction that switches exactly turns round or begins to stick.
+/// Saltation of an event; nothing where the acceleration does not jump. It jumps where a damped
+/// linear contact touches, and where friction that switches exactly turns round or begins to stick.
 ///
 /// @param y       state at the event
 /// @param before  states of the contacts until the event

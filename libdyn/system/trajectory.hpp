@@ -51,8 +51,8 @@ struct IntegrationOptions {
                              ///< (one-step methods)
 };
 
-/// Displacement beyond which a motion is given up, in length scales: that of a clearance of 1 mm is as far
-/// as the moon, three times over.
+/// Displacement beyond which a motion is given up, in length scales: that of a clearance of 1 mm is
+/// as far as the moon, three times over.
 constexpr double boundless = 1e12;
 constexpr const char* boundless_text = "the motion grows without bound";
 

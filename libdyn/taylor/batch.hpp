@@ -43,8 +43,8 @@ struct BatchOptions {
   int threads = 0;  ///< 0: one per processor that this process may use
   bool sections = false;
   bool measures = false;
-  /// All 2 n Lyapunov exponents; their tangents start as the unit vectors. Sticking takes a direction
-  /// away, whose exponent, minus infinity, comes out as a number far below all others.
+  /// All 2 n Lyapunov exponents; their tangents start as the unit vectors. Sticking takes a
+  /// direction away, whose exponent, minus infinity, comes out as a number far below all others.
   bool exponents = false;
   bool growths = false;  ///< with the exponents, how they come about
   bool tangent = false;  ///< instead of the exponents
@@ -83,12 +83,12 @@ void integrate_single(Trajectory& trajectory, const BatchOptions& options,
 /// @param trajectory  starts from state.y + lower_digits, if these are given, and ends there
 void integrate_quad(Trajectory& trajectory, const BatchOptions& options);
 
-/// The same by the method of methods/rk4.hpp, in this thread, for comparison: lanes go in lock step,
-/// so that all take as many steps in a revolution as the one that needs most.
+/// The same by the method of methods/rk4.hpp, in this thread, for comparison: lanes go in lock
+/// step, so that all take as many steps in a revolution as the one that needs most.
 void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOptions& options);
 
-/// Name of the instruction set that lanes are computed with: "avx512", "avx2", "baseline", which every
-/// processor has, or on other processors Highway's name.
+/// Name of the instruction set that lanes are computed with: "avx512", "avx2", "baseline", which
+/// every processor has, or on other processors Highway's name.
 std::string instruction_set();
 
 constexpr std::string_view baseline_set = "baseline";
@@ -100,8 +100,8 @@ std::vector<std::string> instruction_sets();
 /// meanwhile.
 void use_instruction_set(std::string_view name);
 
-/// Whether motions are the same with both, bit by bit: they are where products are fused with sums in
-/// both or in neither.
+/// Whether motions are the same with both, bit by bit: they are where products are fused with sums
+/// in both or in neither.
 bool rounds_alike(std::string_view set, std::string_view other);
 
 }  // namespace whirl::inline dyn

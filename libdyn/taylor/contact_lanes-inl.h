@@ -32,8 +32,8 @@ inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
 
 /// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
 ///
-/// Of a plane d is its normal, r is one, and s, else the square of the distance, is how far the rotor
-/// is beyond it.
+/// Of a plane d is its normal, r is one, and s, else the square of the distance, is how far the
+/// rotor is beyond it.
 template <class P>
 struct ContactLanes {
   using Number = typename P::Number;
@@ -251,8 +251,8 @@ struct ContactLanes {
     if (k == 0) s[0] = s[0] - plane_at;
   }
 
-  /// What s has beyond the surface at time t, and its rate, with slopes: beside touch those of s are left
-  /// out.
+  /// What s has beyond the surface at time t, and its rate, with slopes: beside touch those of s
+  /// are left out.
   HWY_ATTR void beyond_at(const P& t, int last, P& value, P& rate_of_it) {
     if (disk || rows.is_plane) {
       const P s0 = s[0];
@@ -293,8 +293,9 @@ struct ContactLanes {
     r[k] = rest * (P(0.5) * inverse_r);
   }
 
-  /// Coefficient k of the depth. A law that has no Taylor series at the surface starts its step just
-  /// below it, where its force is still nothing; steps near the surface are short by themselves.
+  /// Coefficient k of the depth. A law that has no Taylor series at the surface starts its step
+  /// just below it, where its force is still nothing; steps near the surface are short by
+  /// themselves.
   HWY_ATTR inline P depth(int k) const {
     if (rows.is_plane) return k == 0 ? max(s[0], least_depth) : s[k];
     P d = r[k];
@@ -379,7 +380,8 @@ struct ContactLanes {
   /// tau_k of lanes that slide smoothly; zero in sticking ones, for which it is solved later.
   HWY_ATTR P friction(int k) {
     if (smooth == 0) return P(0.0);
-    // slip velocity rim + (d x d') / r, where friction acts elsewhere rim + (d x w) / r, over the width
+    // slip velocity rim + (d x d') / r, where friction acts elsewhere rim + (d x w) / r, over the
+    // width
     P cross = rub ? rub->turn(dx, dy, k) : add_turn(P(0.0), k);
     for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
     turn_rate[k] = cross * inverse_r;

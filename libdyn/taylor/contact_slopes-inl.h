@@ -204,8 +204,8 @@ struct ContactSlopes {
       m.yy[k] = fma(share, xy, m.yy[k]);
     }
   }
-  /// The same with a share that changes. The first term comes last, as with one that does not: it is
-  /// all there is in lanes of exact friction.
+  /// The same with a share that changes. The first term comes last, as with one that does not: it
+  /// is all there is in lanes of exact friction.
   static HWY_ATTR void turn_by(SeriesMatrix<P>& m, const P* share, int N) {
     const auto older = [&](const P* a, int k) HWY_ATTR {
       P sum(0.0);

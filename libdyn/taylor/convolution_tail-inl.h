@@ -15,8 +15,8 @@ namespace HWY_NAMESPACE {
 
 /// What coefficients 1 to k - 1 add to coefficient k of products of series; of squares, half of it.
 ///
-/// Pairs i, k - i from the middle outwards: the newest come last, which shortens the chain. Operands
-/// are references, for g++ 12 stores copies of packs and never reads them.
+/// Pairs i, k - i from the middle outwards: the newest come last, which shortens the chain.
+/// Operands are references, for g++ 12 stores copies of packs and never reads them.
 ///
 /// @tparam P  of the sums; operands are of this type, or carry slopes that are left out
 template <class P>

@@ -69,8 +69,8 @@ HWY_ATTR bool Engine<P>::is_out_of_reach(const BladeLanes<P>& disk, const P& h) 
                                      mask_of<P>(0)));
 }
 
-/// A damped law lets go where its force vanishes, and grips again where it would push. If it has a rate
-/// factor, that says both: the force itself vanishes with the depth, too.
+/// A damped law lets go where its force vanishes, and grips again where it would push. If it has a
+/// rate factor, that says both: the force itself vanishes with the depth, too.
 template <class P>
 HWY_ATTR void Engine<P>::watch_force(size_t i, P& h) {
   ContactLanes<P>& c = contacts_[i];

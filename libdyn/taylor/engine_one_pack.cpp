@@ -26,7 +26,7 @@ void run_one_pack_here(const Pattern& pattern, const BatchOptions& options,
 #if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR  // no registers that lanes would fill
   run_single(pattern, options, all, observer);
 #else
-  std::make_unique<Engine<Pack<8, 1>>>(pattern, options)->run(all, observer);
+  std::make_unique<Engine<Pack<8, 1> > >(pattern, options)->run(all, observer);
 #endif
 }
 

@@ -185,8 +185,8 @@ HWY_ATTR void Engine<P>::solve_influence() {
 ///   Omega R + (d x d') / r = 0   =>   d x d'' = -Omega R r'
 ///
 /// Coefficient k of this is linear in the tau_k of all sticking contacts; lanes and contacts that
-/// do not stick, or leave it to another that slips alike, have a one on the diagonal and zero on the
-/// right.
+/// do not stick, or leave it to another that slips alike, have a one on the diagonal and zero on
+/// the right.
 template <class P>
 HWY_ATTR void Engine<P>::stick(int k) {
   const size_t m = contacts_.size();

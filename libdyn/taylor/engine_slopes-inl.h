@@ -139,8 +139,8 @@ HWY_ATTR P Engine<P>::limit_for_slopes(const P& h) {
   return P(std::min(longest, slopes.reach / std::sqrt(std::max(square, 1e-200))));
 }
 
-/// A step to a fixed phase: what changes the speed changes how long it takes,  h' = -h rate' / rate.
-/// Then slopes are those at fixed phase, the time of a state being a number with slopes, too.
+/// A step to a fixed phase: what changes the speed changes how long it takes,  h' = -h rate' /
+/// rate. Then slopes are those at fixed phase, the time of a state being a number with slopes, too.
 template <class P>
 HWY_ATTR P Engine<P>::to_fixed_phase(const P& h) const {
   return {h.x, wide(h.x) * slopes_->stretch - slopes_->moved};
@@ -190,8 +190,8 @@ HWY_ATTR void Engine<P>::take_samples(const P& h) {
   }
 }
 
-/// Lets slopes jump with the acceleration at an event of contact i, by how the function of the event
-/// changes at its phase: the depth, or the slip.
+/// Lets slopes jump with the acceleration at an event of contact i, by how the function of the
+/// event changes at its phase: the depth, or the slip.
 template <class P>
 HWY_ATTR void Engine<P>::jump_slopes(size_t i, EventKind kind, const Saltation& s) {
   const ContactLanes<P>& c = contacts_[i];
@@ -231,10 +231,12 @@ HWY_ATTR void Engine<P>::load_deviations() {
   slopes_->along.clear();
 }
 
-/// Looks at a step of length h, and says how slopes move its end: to fixed phase, but with deviations
+/// Looks at a step of length h, and says how slopes move its end: to fixed phase, but with
+/// deviations
 ///
 /// - to the instant of an event. Their rate jumps there, and so would they beside that instant;
-/// - to the same depth close to the surface of a law that has no Taylor series there, unless a revolution
+/// - to the same depth close to the surface of a law that has no Taylor series there, unless a
+/// revolution
 ///   ends: second derivatives of its force grow without bound, but not beside motions that are
 ///   equally deep;
 /// - to the last sample, before any event.
@@ -262,8 +264,8 @@ HWY_ATTR void Engine<P>::move_with_distance(ContactLanes<P>& c, P& h) const {
   h.s = -(value.s * wide(typename P::Value(1.0) / rate.x));
 }
 
-/// The step to the depth of the contact that is closest to its surface, if one comes from there or goes
-/// there.
+/// The step to the depth of the contact that is closest to its surface, if one comes from there or
+/// goes there.
 template <class P>
 HWY_ATTR P Engine<P>::to_same_depth(const P& h) {
   P to = h;
@@ -282,8 +284,8 @@ HWY_ATTR P Engine<P>::to_same_depth(const P& h) {
   return to;
 }
 
-/// How the function of an event changes along a direction of the state: the distance of a touch times
-/// what it is, and that times the slip.
+/// How the function of an event changes along a direction of the state: the distance of a touch
+/// times what it is, and that times the slip.
 ///
 /// @param moved, rates  the direction's displacements and velocities
 template <class P>
@@ -309,8 +311,8 @@ HWY_ATTR P Engine<P>::along_event(const ContactLanes<P>& c, EventKind kind, cons
   return turned + fma(u, b, fnma(v, a, c.rim * outward / sqrt(fma(x, x, y * y))));
 }
 
-/// Notes what a jump of the acceleration at an event of contact i does to deviations, as far as it is
-/// known before the next step:  dy+ = dy- + (f+ - f-) (dg / dy dy-) / (dg / dt).
+/// Notes what a jump of the acceleration at an event of contact i does to deviations, as far as it
+/// is known before the next step:  dy+ = dy- + (f+ - f-) (dg / dy dy-) / (dg / dt).
 template <class P>
 HWY_ATTR void Engine<P>::note_jump(size_t i, EventKind kind) {
   auto& slopes = *slopes_;
@@ -406,8 +408,8 @@ HWY_ATTR void Engine<P>::find_graze(const P* g, const P& first, int degree, doub
   run.grazes.push_back({elapsed() + low, static_cast<int>(i), kind, false, std::max(margin, 0.0)});
 }
 
-/// Looks for grazes in a step of length h: of surfaces where a damped law would begin to push, and of
-/// stops of slip.
+/// Looks for grazes in a step of length h: of surfaces where a damped law would begin to push, and
+/// of stops of slip.
 template <class P>
 HWY_ATTR void Engine<P>::find_grazes(const P& h) {
   slopes_->passed.assign(contacts_.size(), std::numeric_limits<double>::infinity());

@@ -27,8 +27,8 @@ HWY_ATTR P Engine<P>::step_length() {
     sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
     size = max(size, abs(as<V>(y[i])) * scale);
   }
-  // quadruple numbers reach further, and need to: with a law that has no Taylor series at a surface,
-  // the last of thirty terms gets there
+  // quadruple numbers reach further, and need to: with a law that has no Taylor series at a
+  // surface, the last of thirty terms gets there
   const V huge(1e300);
   finite_ = less(sum, P::is_double ? huge : huge * huge * huge);
   bounded_ = less(size, V(boundless));
@@ -43,8 +43,8 @@ HWY_ATTR P Engine<P>::step_length() {
   return P(V(0.95) * rough_exp2(h));
 }
 
-/// Values at h of series and of their derivatives, in all active lanes; Bodies as in series_of. Slopes of h
-/// come last:  x' += v h',  v' += a h'.
+/// Values at h of series and of their derivatives, in all active lanes; Bodies as in series_of.
+/// Slopes of h come last:  x' += v h',  v' += a h'.
 template <class P>
 template <int Bodies>
 HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
@@ -151,7 +151,8 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   time_ = time_ + h;
   time_ = select(mask_of<P>(ends), P(0.0), time_);
   ++steps_;
-  // where next to no time passed, a contact is still on its surface: others touch at the same instant
+  // where next to no time passed, a contact is still on its surface: others touch at the same
+  // instant
   const uint64_t brief = bits(h, less_equal(h, period_ * P(brief_step)));
   for (ContactLanes<P>& c : contacts_) {
     for (uint64_t* surface :

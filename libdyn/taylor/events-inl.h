@@ -50,8 +50,9 @@ HWY_ATTR inline P safe_advance(const P& value, const P& slope, const P& M, const
 
 /// First fall below zero of sign * g on [0, h] in every active lane.
 ///
-/// The same method as first_downward_zero of libbase/numerics/polynomial.hpp: with M >= |g''| on [0, h], g(t + u) is
-/// at least g + g' u - M u^2 / 2, so t moves by the positive root of that. No root can be jumped.
+/// The same method as first_downward_zero of libbase/numerics/polynomial.hpp: with M >= |g''| on
+/// [0, h], g(t + u) is at least g + g' u - M u^2 / 2, so t moves by the positive root of that. No
+/// root can be jumped.
 ///
 /// @param g           coefficients in time; g[0] counts as zero in lanes of `surface`
 /// @param scale       what g is measured by: zero is P::rounding of it

@@ -1,6 +1,7 @@
 #pragma once
-/// Instruction sets that lanes are compiled for: what every processor has, AVX2 and AVX-512, without
-/// those that the build leaves out (WHIRL_INSTRUCTION_SETS). Comes before headers of Highway.
+/// Instruction sets that lanes are compiled for: what every processor has, AVX2 and AVX-512,
+/// without those that the build leaves out (WHIRL_INSTRUCTION_SETS). Comes before headers of
+/// Highway.
 
 #ifdef WHIRL_WITHOUT_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | WHIRL_WITHOUT_TARGETS)

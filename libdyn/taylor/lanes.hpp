@@ -3,8 +3,8 @@
 
 namespace whirl::inline dyn {
 
-/// Motions without tangents that a batch moves on at once, with the instruction set in use: as many as
-/// two registers hold. A step of fewer takes as long.
+/// Motions without tangents that a batch moves on at once, with the instruction set in use: as many
+/// as two registers hold. A step of fewer takes as long.
 int lanes_together();
 
 }  // namespace whirl::inline dyn

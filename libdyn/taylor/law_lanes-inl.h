@@ -101,8 +101,8 @@ struct LawWork {
   HWY_ATTR inline P normal(int k, const P& depth) { return rateless.at(k, depth, depth); }
 };
 
-/// Calls f with a law's normal force as an expression of depth and rate, of the depth alone where the
-/// rate does not matter.
+/// Calls f with a law's normal force as an expression of depth and rate, of the depth alone where
+/// the rate does not matter.
 template <class P>
 HWY_ATTR inline void with_force(const AnyContactLaw<P>& any, bool has_rate, const auto& f) {
   with_alternative(any, [&](const auto& law) HWY_ATTR {

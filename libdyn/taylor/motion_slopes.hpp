@@ -22,7 +22,8 @@ struct SlopeOptions {
   bool by_start = true;      ///< whether derivatives by the start are wanted
   HeldSample held = HeldSample::time;
   double near = 1e-6;  ///< distance to a surface up to which a motion grazes it, see Graze
-  Mat deviations{};  ///< of the start, 2 n x any number: carried to the last sample, see MotionSlopes
+  Mat deviations{};    ///< of the start, 2 n x any number: carried to the last sample, see
+                       ///< MotionSlopes
 };
 
 /// An event of a motion.
@@ -36,9 +37,10 @@ struct MotionEvent {
 /// Where a motion all but touches, or all but stops to slip: beside it are motions that do and
 /// motions that do not, whose derivatives differ.
 ///
-/// Of a contact whose force jumps at a touch, derivatives are one-sided: right for changes towards the
-/// side that the motion is on. Of slip that comes to rest, those of the motions that get there grow
-/// without bound. Contacts whose force grows from nothing may be grazed: they have a derivative.
+/// Of a contact whose force jumps at a touch, derivatives are one-sided: right for changes towards
+/// the side that the motion is on. Of slip that comes to rest, those of the motions that get there
+/// grow without bound. Contacts whose force grows from nothing may be grazed: they have a
+/// derivative.
 struct Graze {
   double time = 0.0;                  ///< since the start [s]
   int contact = 0;                    ///< of ContactSystem::contacts()
@@ -72,12 +74,12 @@ struct MotionSlopes {
 ///   d/dt y_p = f_y y_p + f_p,   y_p+ = y_p- + (f+ - f-) (g_y y_p- + g_p) / (g_y f- + g_t)
 ///
 /// The same series that move the motion are made of numbers with slopes: coefficients of the
-/// equations bring theirs along, and those of states come out, whatever law, geometry or film. Eight
-/// derivatives fill the lanes of a register and take one pass; a column is the same, bit by bit,
-/// whichever others are asked for, and so is the motion.
+/// equations bring theirs along, and those of states come out, whatever law, geometry or film.
+/// Eight derivatives fill the lanes of a register and take one pass; a column is the same, bit by
+/// bit, whichever others are asked for, and so is the motion.
 ///
-/// The start, its phase with it, does not depend on parameters. One that sticks is taken to stick beside
-/// it, too, and contacts that slip alike (ReducedContact::slip_group) to do so.
+/// The start, its phase with it, does not depend on parameters. One that sticks is taken to stick
+/// beside it, too, and contacts that slip alike (ReducedContact::slip_group) to do so.
 ///
 /// @param system      size 2 n
 /// @param start       its contact states are found if they are not given

@@ -58,8 +58,9 @@ struct Pattern {
   };
   std::vector<Alike> alike;
 
-  /// How many bodies there are, where the coordinates are their (x, y) and nothing couples them but a contact that all are in, whose law does not know the
-  /// rate of the depth, and there is no film; else 0.
+  /// How many bodies there are, where the coordinates are their (x, y) and nothing couples them but
+  /// a contact that all are in, whose law does not know the rate of the depth, and there is no
+  /// film; else 0.
   int bodies = 0;
   bool is_isotropic = false;  ///< bodies whose coefficients are the same in x and in y
 

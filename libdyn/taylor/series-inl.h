@@ -18,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
-/// Calls f(i) for i = 0 to Count - 1, written out so that what i indexes can stay in registers; with
-/// Count = 0 for i = 0 to n - 1, in a loop.
+/// Calls f(i) for i = 0 to Count - 1, written out so that what i indexes can stay in registers;
+/// with Count = 0 for i = 0 to n - 1, in a loop.
 template <int Count, class F>
 HWY_ATTR inline void each(int n, F&& f) {
   if constexpr (Count == 0) {

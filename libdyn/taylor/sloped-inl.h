@@ -51,8 +51,8 @@ struct alignas(64) Sloped {
   HWY_ATTR Sloped(const Value& value, const Slopes& slopes) : s(slopes), x(value) {}
 };
 
-/// Where every slope takes a register of its own, as in what all processors have, products are calls:
-/// spread over the engine they take longer to compile than all the rest.
+/// Where every slope takes a register of its own, as in what all processors have, products are
+/// calls: spread over the engine they take longer to compile than all the rest.
 #if HWY_TARGET == HWY_SCALAR
 #define WHIRL_PRODUCT HWY_ATTR HWY_NOINLINE inline
 #else

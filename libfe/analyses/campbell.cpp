@@ -226,8 +226,8 @@ std::size_t growing(const std::vector<Complex>& by_growth) {
                     [](Complex lambda) { return lambda.real() > clear * std::abs(lambda); }));
 }
 
-/// The threshold between two fronts of the eigenvalue that grows fastest but `number`, if it decays at
-/// one of them and grows at the other.
+/// The threshold between two fronts of the eigenvalue that grows fastest but `number`, if it decays
+/// at one of them and grows at the other.
 std::optional<Threshold> threshold(const Tracker& tracker, const Front& low, const Front& high,
                                    std::size_t number) {
   Front near = low;

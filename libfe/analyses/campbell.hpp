@@ -103,14 +103,14 @@ struct Campbell {
 /// Modes of a structure over speeds, followed through crossings.
 ///
 /// Modes of neighboring speeds belong together if their shapes agree (MAC weighted with M); where
-/// they do not agree well, speeds between are computed too until they do. A speed whose modes cannot
-/// be computed is left out and told, and its neighbors are compared with one another. A branch ends
-/// where no mode is like it any more; if bearings change with speed, one begins for a mode that comes
-/// among the lowest then.
+/// they do not agree well, speeds between are computed too until they do. A speed whose modes
+/// cannot be computed is left out and told, and its neighbors are compared with one another. A
+/// branch ends where no mode is like it any more; if bearings change with speed, one begins for a
+/// mode that comes among the lowest then.
 ///
-/// Where more modes, or fewer, grow at a speed than at the one before, thresholds of instability lie
-/// between: the roots over speed of the real parts of the eigenvalues, the largest one first. Modes
-/// that do not oscillate at first, as those of bearings with oil films, count as others do.
+/// Where more modes, or fewer, grow at a speed than at the one before, thresholds of instability
+/// lie between: the roots over speed of the real parts of the eigenvalues, the largest one first.
+/// Modes that do not oscillate at first, as those of bearings with oil films, count as others do.
 ///
 /// @param speeds    ascending, nonnegative [rad/s]
 /// @param branches  how many of the lowest modes at the first speed above zero are followed

@@ -24,8 +24,8 @@ constexpr int curve_points = 200;    ///< steps of speed of a curve
 constexpr double crossing_tolerance = 1e-10;  ///< of log10 of a stiffness
 constexpr int most_criticals = 1000;          ///< below the top, before something is wrong
 
-/// Whether the map gives a bearing another stiffness: one with no end on the shaft, or on a body that
-/// spins, belongs to the foundation, which stays as it is. A rotor may be bodies alone.
+/// Whether the map gives a bearing another stiffness: one with no end on the shaft, or on a body
+/// that spins, belongs to the foundation, which stays as it is. A rotor may be bodies alone.
 bool is_swept(const Structure& s, const Connection& b) {
   const auto is_rotor = [&](const Station& station) {
     if (station.kind != Station::Kind::body) return station.kind != Station::Kind::ground;

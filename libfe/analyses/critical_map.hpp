@@ -117,14 +117,14 @@ struct CriticalMap {
 /// With bearings that are alike, or that change with speed, x is a stiffness that all of them have
 /// in all directions, and their own stiffness goes on top, so that critical speeds are where these
 /// cross [API684]. With bearings that differ, x is a factor of all of them. Rigid bearings stay as
-/// they are, and so do seals with their stiffness at rest, and springs without an end on the shaft, as
-/// those between pedestals and the ground; damping is left out.
+/// they are, and so do seals with their stiffness at rest, and springs without an end on the shaft,
+/// as those between pedestals and the ground; damping is left out.
 ///
 /// Linearized connections, as oil films, are bearings that change with speed.
 ///
-/// Critical speeds are followed by their shapes. They rise with stiffness, no faster than its square
-/// root, so that a branch leaves the map at its top only; where gyroscopics keep a mode from being
-/// critical, it has no branch.
+/// Critical speeds are followed by their shapes. They rise with stiffness, no faster than its
+/// square root, so that a branch leaves the map at its top only; where gyroscopics keep a mode from
+/// being critical, it has no branch.
 ///
 /// @return  no branches if no bearing has a stiffness
 CriticalMap critical_map(const Structure& structure, const CriticalMapOptions& options);

@@ -190,8 +190,8 @@ std::vector<Mode> lowest_modes(std::vector<EigenPair> pairs, const DofMap& dofs,
   return modes;
 }
 
-/// Takes out of the list at the end of a span what tracks have arrived at. What is not in it must be
-/// above all that it has.
+/// Takes out of the list at the end of a span what tracks have arrived at. What is not in it must
+/// be above all that it has.
 std::vector<EigenPair> not_reached(std::vector<EigenPair> list, const std::vector<Track>& tracks,
                                    std::size_t count) {
   const bool is_all = list.size() < count;

@@ -19,7 +19,8 @@ namespace whirl::inline fe {
 /// or is lost, two become one, there are too few, or what arrives at one end is not what is there.
 /// A mode that is among the lowest inside of a span only, not at its ends, is missed.
 ///
-/// Modes of small systems are computed at every speed, and so are those at rest, where pairs are one.
+/// Modes of small systems are computed at every speed, and so are those at rest, where pairs are
+/// one.
 class FollowedModes {
  public:
   /// @param speeds  ascending, nonnegative [rad/s]
@@ -27,16 +28,16 @@ class FollowedModes {
   FollowedModes(const Assembler& assembler, const ModeFinder& finder,
                 const std::vector<double>& speeds, int count);
 
-  /// Modes at a speed [rad/s], ascending frequency. Those between speeds that are known are followed
-  /// from both.
+  /// Modes at a speed [rad/s], ascending frequency. Those between speeds that are known are
+  /// followed from both.
   ///
   /// @throws NumericalError  if modes cannot be computed there
   const std::vector<Mode>& at(double Omega);
   /// Mass matrix at a speed [rad/s], by which shapes of modes there are compared.
   const Sparse& mass(double Omega) { return known_at(Omega).M; }
 
-  /// The mode at a speed between two at which it is known; nothing where what it is followed to is not
-  /// like both, or the system is small.
+  /// The mode at a speed between two at which it is known; nothing where what it is followed to is
+  /// not like both, or the system is small.
   ///
   /// @param guess  the mode at a speed as near as can be
   std::optional<Mode> like(const Mode& guess, const Mode& below, const Mode& above,

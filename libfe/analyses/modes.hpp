@@ -46,7 +46,8 @@ inline bool oscillates(Complex lambda) {
   return lambda.imag() > hardly_oscillating * std::abs(lambda.real());
 }
 
-/// Coordinates below which all modes of a system are found at once: dense solvers are as fast there.
+/// Coordinates below which all modes of a system are found at once: dense solvers are as fast
+/// there.
 constexpr int dense_below = 75;
 
 /// One oscillatory mode, q = Re(shape e^(lambda t)).
@@ -143,8 +144,9 @@ class ModeFinder {
   /// Modes around i * frequency [rad/s]: all of a small system's lowest `count`, or about so many
   /// that are nearest in the complex plane. Coefficients are those of this frequency.
   Modes near(double Omega, double frequency, int count) const;
-  /// The mode that Newton's iteration finds from one of a speed beside this; coefficients as of near(). It may be
-  /// another one, of another shape. Nothing: it does not converge, or not to a mode that oscillates.
+  /// The mode that Newton's iteration finds from one of a speed beside this; coefficients as of
+  /// near(). It may be another one, of another shape. Nothing: it does not converge, or not to a
+  /// mode that oscillates.
   std::optional<Mode> followed(const Mode& mode, double Omega, double frequency) const;
   System system(double Omega) const;
 

@@ -7,8 +7,8 @@
 
 namespace whirl::inline fe {
 
-/// Oscillatory modes of a reduced system, as motions of the dofs that were reduced: those of its equations,
-/// which are few, so that the reduction's errors are in them.
+/// Oscillatory modes of a reduced system, as motions of the dofs that were reduced: those of its
+/// equations, which are few, so that the reduction's errors are in them.
 /// @param count  wanted; fewer come back if there are fewer
 /// @return       ascending frequency
 /// @throws NumericalError  if the eigenvalue iteration fails

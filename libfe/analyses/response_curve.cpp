@@ -172,8 +172,9 @@ class CurveBuilder {
   std::vector<double> undamped_, unbounded_;
 };
 
-/// How many of the lowest modes may come below the line frequency = speed up to a speed. Of two modes
-/// that are one pair at rest the forward one may never do, so that twice as many are followed.
+/// How many of the lowest modes may come below the line frequency = speed up to a speed. Of two
+/// modes that are one pair at rest the forward one may never do, so that twice as many are
+/// followed.
 int modes_to_follow(const Assembler& assembler, double last, double order) {
   const ModeFinder finder(assembler);
   for (int count = first_modes;; count *= 2) {

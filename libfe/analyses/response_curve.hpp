@@ -53,8 +53,8 @@ ResponseCurve response_curve(const Assembler& assembler, const std::vector<doubl
 /// A size of the response at any speed; infinite where it is unbounded.
 using SizeAt = std::function<double(double Omega)>;
 
-/// The peak of a size around the number k of some speeds, where it is larger than at both neighbors:
-/// its top and its sides as roots of the size itself.
+/// The peak of a size around the number k of some speeds, where it is larger than at both
+/// neighbors: its top and its sides as roots of the size itself.
 /// @param known  the size at speed number i
 ResponsePeak refined_peak(const SizeAt& size_at, const std::vector<double>& speeds,
                           const std::function<double(std::size_t i)>& known, std::size_t k);
@@ -64,8 +64,8 @@ ResponsePeak refined_peak(const SizeAt& size_at, const std::vector<double>& spee
 std::vector<ResponsePeak> refined_peaks(const SizeAt& size_at, const ResponseCurve& curve,
                                         const Vec& sizes, std::size_t most = 8);
 
-/// The largest major semi-axis of every point [m] and its speed [rad/s], on the parabola through the
-/// inverse squares of the three highest samples: what one mode makes is one.
+/// The largest major semi-axis of every point [m] and its speed [rad/s], on the parabola through
+/// the inverse squares of the three highest samples: what one mode makes is one.
 struct LargestResponse {
   double speed = 0.0, amplitude = 0.0;
 };

@@ -41,12 +41,12 @@ using SolveShapes = std::function<std::vector<ShapedValue>(double at)>;
 /// Follows solutions along a parameter, each by its shape.
 ///
 /// Solutions at neighboring values belong together one to one, those of the best agreement
-/// |a^H W b|^2 / (a^H W a  b^H W b) first, a small share of it for near values. Where a branch finds
-/// none that agrees by 0.8, values of the parameter between are solved too, down to 1/64 of a step.
-/// Equal solutions count as one space, from which each branch takes what is most like its own shape. A
-/// branch that finds no successor ends, one that nothing precedes begins. Where the eigenproblem
-/// fails the branches go on at the next value, and the failure is told; between the values that were
-/// asked for it is not.
+/// |a^H W b|^2 / (a^H W a  b^H W b) first, a small share of it for near values. Where a branch
+/// finds none that agrees by 0.8, values of the parameter between are solved too, down to 1/64 of a
+/// step. Equal solutions count as one space, from which each branch takes what is most like its own
+/// shape. A branch that finds no successor ends, one that nothing precedes begins. Where the
+/// eigenproblem fails the branches go on at the next value, and the failure is told; between the
+/// values that were asked for it is not.
 ///
 /// @param at     ascending; where branches are told beside the values between
 /// @param W      symmetric, of the size of the shapes

@@ -23,8 +23,9 @@ struct UnbalanceResponse {
   }
 };
 
-/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u + f at any speed, f that of forces of
-/// order 1 and of the bow: displacements are those of the shaft's axis from the straight line, bow and all.
+/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u + f at any speed, f that of forces
+/// of order 1 and of the bow: displacements are those of the shaft's axis from the straight line,
+/// bow and all.
 class UnbalanceSolver {
  public:
   explicit UnbalanceSolver(const Assembler& assembler);
@@ -44,8 +45,8 @@ class UnbalanceSolver {
   std::unique_ptr<State> state_;
 };
 
-/// The same to one of the loads of other frequencies, of that frequency: u(t) = Re(value e^(i w t)).
-/// Bearings take the coefficients of that frequency.
+/// The same to one of the loads of other frequencies, of that frequency: u(t) = Re(value e^(i w
+/// t)). Bearings take the coefficients of that frequency.
 /// @return  x, y: NaN at speeds where the dynamic stiffness is singular
 UnbalanceResponse oscillating_response(const Assembler& assembler, const OscillatingLoad& load,
                                        const std::vector<double>& speeds,

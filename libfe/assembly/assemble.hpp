@@ -25,8 +25,9 @@ struct System {
 class Assembler {
  public:
   /// @throws ModelError  as make_mesh, and for connections that cannot be (clamping a body without
-  ///                     tilts, a rigid bearing whose ends are held already, ...) or hold everything,
-  ///                     and for modal damping where the modes at rest cannot be computed
+  ///                     tilts, a rigid bearing whose ends are held already, ...) or hold
+  ///                     everything, and for modal damping where the modes at rest cannot be
+  ///                     computed
   explicit Assembler(Structure structure);
 
   const Structure& structure() const { return structure_; }
@@ -40,14 +41,15 @@ class Assembler {
   /// Whether they change with the frequency of a motion, too.
   bool depends_on_whirl() const { return depends_on_whirl_; }
 
-  /// Matrices at a speed [rad/s] for motions of a frequency omega >= 0 [rad/s], dofs without inertia
-  /// condensed.
+  /// Matrices at a speed [rad/s] for motions of a frequency omega >= 0 [rad/s], dofs without
+  /// inertia condensed.
   ///
   /// Condensed exactly are those without mass whose damping is none or proportional to stiffness;
   /// a massless freedom with a damper of its own stays, and makes M singular. So do those on which
   /// coefficients act that depend on omega: coordinates are the same at every frequency.
   ///
-  /// @throws NumericalError  if a freedom has neither inertia nor stiffness, if none has inertia, or
+  /// @throws NumericalError  if a freedom has neither inertia nor stiffness, if none has inertia,
+  /// or
   ///                         if a linearized connection has no coefficients at this speed
   System at(double Omega, double omega) const;
   /// The same for motions whose frequency is the speed, as unbalance lets them be.

@@ -20,8 +20,8 @@ class DynamicStiffness {
   /// @return       the response, or nothing where the matrix is singular
   std::optional<CVec> solve(double w, double Omega, const CVec& f);
 
-  /// The same for several loads at one motion e^(lambda t), lambda = i w [rad/s]: whether the matrix is
-  /// regular, and then responses.
+  /// The same for several loads at one motion e^(lambda t), lambda = i w [rad/s]: whether the
+  /// matrix is regular, and then responses.
   bool factorize(Complex lambda, double Omega);
   CVec solve(const CVec& f) const;
 

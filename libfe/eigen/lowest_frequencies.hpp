@@ -16,8 +16,8 @@ struct FrequencySearch {
 /// (creeping, overdamped ones) are nearer to zero or between.
 ///
 /// Discs of complex shifts cover the sector from below. The search ends at a frequency below which
-/// the wanted number was found and no part of the sector is left where one could be; or, with fewer,
-/// far above the frequency where damping in proportion to stiffness overdamps everything.
+/// the wanted number was found and no part of the sector is left where one could be; or, with
+/// fewer, far above the frequency where damping in proportion to stiffness overdamps everything.
 ///
 /// @return  those in the sector, ascending in Im lambda; behind them others from the first disc,
 ///          Im >= 0, nearest to zero first

@@ -23,8 +23,8 @@ class PairNewton {
 
   enum class Step { taken, is_exact, failed };
 
-  /// One step. It is exact where Q is singular, and fails where it is not finite: the pair stays as it
-  /// is.
+  /// One step. It is exact where Q is singular, and fails where it is not finite: the pair stays as
+  /// it is.
   Step step(EigenPair& pair);
 
   /// Steps until one is relatively shorter than this; false: it does not converge.

@@ -24,8 +24,8 @@ class Refinement {
   ///               of the sum of the parts is as large as they are
   bool improve(Complex& lambda, CVec& q, double reach);
 
-  /// Whether it is an infinite eigenvalue after all: so far out that a backward error says nothing, as
-  /// lambda^2 |M| is larger than all else, and nothing holds what is left of its parts.
+  /// Whether it is an infinite eigenvalue after all: so far out that a backward error says nothing,
+  /// as lambda^2 |M| is larger than all else, and nothing holds what is left of its parts.
   bool is_infinite(Complex lambda, const CVec& q) const;
 
  private:

@@ -37,8 +37,8 @@ Sparse symmetric_part(const Sparse& A);
 /// Largest entry of A - A^T relative to the largest of A is below 1e-12.
 bool is_symmetric(const Sparse& A);
 
-/// M itself where it is symmetric, else its symmetric part, for pencils that need one: added mass of
-/// seals has small skew parts.
+/// M itself where it is symmetric, else its symmetric part, for pencils that need one: added mass
+/// of seals has small skew parts.
 Sparse symmetric_inertia(const Sparse& M);
 
 }  // namespace whirl::inline fe

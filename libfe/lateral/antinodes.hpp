@@ -13,10 +13,11 @@ struct Antinode {
   double deflection = 0.0;  ///< over the largest one of the shape, with its sign
 };
 
-/// Antinodes of the part of a shape that whirls forward, left to right; ends of the shaft can be some.
+/// Antinodes of the part of a shape that whirls forward, left to right; ends of the shaft can be
+/// some.
 ///
-/// Deflections are taken in phase with the largest one. Those below half of it count for none: an end
-/// that moves a little is not what the mode is excited at.
+/// Deflections are taken in phase with the largest one. Those below half of it count for none: an
+/// end that moves a little is not what the mode is excited at.
 ///
 /// @param shape  complex, coordinates of the system
 /// @return       none where the shaft does not move, or only backward

@@ -62,8 +62,8 @@ class CoupledRotor {
     return is_supported(symmetric_part(assembler_.uncondensed(Omega_, 0.0).K));
   }
 
-  /// 2 x 2 receptance (x, y) of the station [m/N] for motions e^(s t), s = w (i + tilt); NaN where it
-  /// is infinite.
+  /// 2 x 2 receptance (x, y) of the station [m/N] for motions e^(s t), s = w (i + tilt); NaN where
+  /// it is infinite.
   Eigen::Matrix2cd receptance(double w, double tilt) {
     if (!stiffness_ || assembler_.depends_on_whirl()) {
       const System system = assembler_.uncondensed(Omega_, w);
@@ -213,7 +213,8 @@ class BorderScan {
  private:
   Inverses at(double w) { return Inverses(rotor_.receptance(w, tilt_)); }
 
-  /// Beyond all eigenvalues receptances fall: once they are too small for the least Q, no less follows.
+  /// Beyond all eigenvalues receptances fall: once they are too small for the least Q, no less
+  /// follows.
   bool is_over(double w, const Inverses& here) const {
     if (w < top_) return false;
     return w > last_decades * top_ || least_ * here.size() < 1.0;
@@ -252,8 +253,8 @@ class BorderScan {
     return false;
   }
 
-  /// Where one of them is real and positive between two frequencies. With dp / dQ < 0, the eigenvalue
-  /// goes right where Im p falls over w.
+  /// Where one of them is real and positive between two frequencies. With dp / dQ < 0, the
+  /// eigenvalue goes right where Im p falls over w.
   void add_between(double w, const Inverses& here, double next, const Inverses& there,
                    std::size_t k) {
     const Complex from = here.p[k], to = there.p[k];

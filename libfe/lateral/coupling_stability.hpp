@@ -42,17 +42,19 @@ struct CouplingOptions {
 ///
 /// Every mode counts, whatever its sense of whirl without Q is called: with unlike bearings the one
 /// that Q drives is often mixed or backward there. At each Q the decrement is the least one of the
-/// modes that are no faster than the rotor spins, or than 1.5 times its slowest not backward one, heavily
-/// damped ones as of oil films among them, and of every mode that grows, however fast it is; minus
-/// infinity where the rotor leaves its place without oscillating. Q_0 is the least Q beyond which an
-/// eigenvalue has a real part above zero. It is found along the imaginary axis, where
+/// modes that are no faster than the rotor spins, or than 1.5 times its slowest not backward one,
+/// heavily damped ones as of oil films among them, and of every mode that grows, however fast it
+/// is; minus infinity where the rotor leaves its place without oscillating. Q_0 is the least Q
+/// beyond which an eigenvalue has a real part above zero. It is found along the imaginary axis,
+/// where
 ///
 ///   1 + (H_yx - H_xy) Q + det H(i w) Q^2 = 0,   H: receptance of the station at Q = 0, 2 x 2,
 ///
-/// has a real root Q where i w is an eigenvalue, and is checked against eigenvalues along the curve. Of
-/// rotors with 75 coordinates and more, modes are the lowest ones, so many that they reach beyond the
-/// speed of the rotor. Coefficients of linearized connections, as oil films, are those at Q = 0: Q
-/// acts on the whirl about the equilibrium and does not move the equilibrium itself.
+/// has a real root Q where i w is an eigenvalue, and is checked against eigenvalues along the
+/// curve. Of rotors with 75 coordinates and more, modes are the lowest ones, so many that they
+/// reach beyond the speed of the rotor. Coefficients of linearized connections, as oil films, are
+/// those at Q = 0: Q acts on the whirl about the equilibrium and does not move the equilibrium
+/// itself.
 ///
 /// @param Omega  speed [rad/s]
 /// @source [API617], stability analysis of level I

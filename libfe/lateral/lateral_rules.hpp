@@ -1,6 +1,6 @@
 #pragma once
-/// Rules of the lateral analysis of compressors [API617]: what of unbalance, vibration, distance and
-/// damping they ask for. Formulas only, in SI.
+/// Rules of the lateral analysis of compressors [API617]: what of unbalance, vibration, distance
+/// and damping they ask for. Formulas only, in SI.
 
 #include <array>
 
@@ -33,8 +33,8 @@ double analysis_unbalance(double mass, double maximum);
 /// @source [API617]
 double vibration_limit(double maximum);
 
-/// How far a peak is from the speeds of a machine, and should be: from the minimum where it is below
-/// them, from the maximum where it is above. Among them its distance is zero.
+/// How far a peak is from the speeds of a machine, and should be: from the minimum where it is
+/// below them, from the maximum where it is above. Among them its distance is zero.
 ///
 /// @source [API617], as separation_margin(peak, operating)
 SeparationMargin separation_margin(const ResponsePeak& peak, const OperatingRange& range);
@@ -43,8 +43,8 @@ SeparationMargin separation_margin(const ResponsePeak& peak, const OperatingRang
 inline constexpr double clearance_share = 0.75;
 /// Responses are scaled up to the vibration limit, at most so many times, for clearances.
 inline constexpr double most_scaling = 6.0;
-/// Least logarithmic decrement with the anticipated cross-coupling, and least ratio of the cross-coupling
-/// that the rotor bears to it, in an analysis of level I.
+/// Least logarithmic decrement with the anticipated cross-coupling, and least ratio of the
+/// cross-coupling that the rotor bears to it, in an analysis of level I.
 inline constexpr double least_log_decrement = 0.1;
 inline constexpr double least_coupling_ratio = 2.0;
 /// The same ratio where a compressor is in region B of the screening.
@@ -67,7 +67,8 @@ constexpr auto choices(StabilityRegion) {
 /// @source [API617], screening of level I; [Timbo2020], report after API 617
 double largest_speed_ratio(double density);
 
-/// @param speed_ratio  critical speed ratio: maximum continuous speed over the first critical speed on
+/// @param speed_ratio  critical speed ratio: maximum continuous speed over the first critical speed
+/// on
 ///                     rigid supports
 /// @source as largest_speed_ratio
 StabilityRegion stability_region(double speed_ratio, double density);

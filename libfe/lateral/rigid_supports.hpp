@@ -5,8 +5,9 @@
 
 namespace whirl::inline fe {
 
-/// The first undamped critical speed on rigid supports that a rotor does not whirl backward at: bearings
-/// and linearized connections, as oil films, pin x and y to the ground; seals are left out.
+/// The first undamped critical speed on rigid supports that a rotor does not whirl backward at:
+/// bearings and linearized connections, as oil films, pin x and y to the ground; seals are left
+/// out.
 ///
 /// @return  [rad/s]; NaN if none is found, or the rotor would be free
 /// @throws NumericalError  if the eigensolver fails

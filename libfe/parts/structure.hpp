@@ -175,8 +175,8 @@ constexpr auto choices(Turning) {
                     Choice<Turning>{"backward", Turning::backward}};
 }
 
-/// A load that does not follow from the motion: constant, of an order of the speed, or of a frequency
-/// of its own. With w its frequency,
+/// A load that does not follow from the motion: constant, of an order of the speed, or of a
+/// frequency of its own. With w its frequency,
 ///
 ///   along a direction   F cos(w t + phase) (cos angle, sin angle)
 ///   turning             F (cos(phase + w t), sin(phase + w t)), backward with -w
@@ -199,9 +199,9 @@ struct Force {
   bool is_synchronous() const { return order == 1.0; }
 };
 
-/// A displacement probe: it reads the displacement of its station along a direction a across the shaft,
-/// x cos a + y sin a. With a radius r it looks along the shaft at a face that turns with it and reads how far
-/// the tilts move the face towards +z there: r (theta_x sin a - theta_y cos a).
+/// A displacement probe: it reads the displacement of its station along a direction a across the
+/// shaft, x cos a + y sin a. With a radius r it looks along the shaft at a face that turns with it
+/// and reads how far the tilts move the face towards +z there: r (theta_x sin a - theta_y cos a).
 struct Probe {
   std::string name;
   Station at;
@@ -212,7 +212,8 @@ struct Probe {
   bool is_axial() const { return face_radius > 0.0; }
 
   /// What it reads of a motion.
-  /// @param of  gives the motion's component 0 to 3, of x, y, theta_x and theta_y: numbers, which may be complex, or
+  /// @param of  gives the motion's component 0 to 3, of x, y, theta_x and theta_y: numbers, which
+  /// may be complex, or
   ///            arrays of them; only those that the probe sees are asked for
   template <class Of>
   auto reading(const Of& of) const {
@@ -249,8 +250,8 @@ struct Connection {
   }
 };
 
-/// A connection whose coefficients follow from the state of the rotor at a speed, as those of an oil
-/// film follow from where its journal runs.
+/// A connection whose coefficients follow from the state of the rotor at a speed, as those of an
+/// oil film follow from where its journal runs.
 struct LinearizedConnection {
   std::string name;
   Station from, to;

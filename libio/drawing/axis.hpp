@@ -29,8 +29,8 @@ struct Axis {
 /// Whether its limits are so far apart, and so near to zero, that places and ticks are no rounding.
 bool can_be_drawn(const Axis& axis);
 
-/// The axis of round limits that shows all numbers; others than those up to 1e300 (and above 1e-300, if
-/// logarithmic) do not count. Without any, 0 to 1, or 1 to 10.
+/// The axis of round limits that shows all numbers; others than those up to 1e300 (and above
+/// 1e-300, if logarithmic) do not count. Without any, 0 to 1, or 1 to 10.
 Axis axis_around(const std::vector<double>& values, Scale scale);
 
 /// Places as near as possible to those wanted, in the same order, with distances between them.

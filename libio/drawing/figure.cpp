@@ -77,7 +77,8 @@ Axis axis_of(const FigureAxis& wanted, const std::vector<double>& values) {
   return can_be_drawn(axis) ? axis : around;
 }
 
-/// Lets an axis go from edge to edge of cells, unless their middles lie in one place or run backwards.
+/// Lets an axis go from edge to edge of cells, unless their middles lie in one place or run
+/// backwards.
 void show_edges(Axis& axis, const std::vector<double>& edges) {
   const Axis across{axis.scale, edges[0], edges[1]};
   if (can_be_drawn(across)) axis = across;

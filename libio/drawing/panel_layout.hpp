@@ -1,6 +1,6 @@
 #pragma once
-/// Places of the panels of a figure in a picture, whatever draws them: rooms around them, ranges and
-/// ticks of their axes.
+/// Places of the panels of a figure in a picture, whatever draws them: rooms around them, ranges
+/// and ticks of their axes.
 
 #include <string>
 #include <vector>
@@ -63,7 +63,8 @@ struct PanelFrame {
 std::vector<PanelFrame> frames_of(const Figure& figure, double top,
                                   const figure_style::Rooms& rooms = figure_style::wide);
 
-/// The parts of a title, divided by " | ", that fit a width: the last ones are left out, then words.
+/// The parts of a title, divided by " | ", that fit a width: the last ones are left out, then
+/// words.
 std::string fitting_title(const std::string& title, double width);
 
 /// Whether a panel is one of a picture of a given size, where room is scarce.

@@ -115,8 +115,8 @@ struct TextBox {
   }
 };
 
-/// Texts within a panel. In a picture of a given size one that would lie on another one, or reach out
-/// of the picture, is moved up or down by a line, or left out.
+/// Texts within a panel. In a picture of a given size one that would lie on another one, or reach
+/// out of the picture, is moved up or down by a line, or left out.
 class PanelTexts {
  public:
   PanelTexts(Svg& svg, const PanelFrame& f) : svg_(svg), frame_(f) {}
@@ -274,8 +274,8 @@ bool leaves(const PanelFrame& f, const Curve& c, Pixel last) {
   return false;
 }
 
-/// Names at the ends of lines, and of horizontal rules beside them, kept apart, each with a line to its
-/// end.
+/// Names at the ends of lines, and of horizontal rules beside them, kept apart, each with a line to
+/// its end.
 void draw_end_names(Svg& svg, const PanelFrame& f) {
   struct End {
     std::string name;

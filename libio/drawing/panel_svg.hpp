@@ -1,5 +1,6 @@
 #pragma once
-/// Panels of a figure in an SVG picture: axes, cells, curves and names at the places of panel_layout.hpp.
+/// Panels of a figure in an SVG picture: axes, cells, curves and names at the places of
+/// panel_layout.hpp.
 
 #include <string>
 

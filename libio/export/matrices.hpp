@@ -1,5 +1,6 @@
 #pragma once
-/// The matrices of a rotor, M q'' + (C + Omega G) q' + K q = f, for programs that compute with them.
+/// The matrices of a rotor, M q'' + (C + Omega G) q' + K q = f, for programs that compute with
+/// them.
 
 #include <filesystem>
 #include <string>
@@ -32,8 +33,8 @@ std::vector<std::filesystem::path> write_matrix_market(const std::filesystem::pa
                                                        const Assembler& assembler, double Omega,
                                                        Replaces replaces);
 
-/// Writes STEM.mat (MATLAB 5): sparse M, C, G, K, the number Omega, and dofs, a row of characters per
-/// coordinate.
+/// Writes STEM.mat (MATLAB 5): sparse M, C, G, K, the number Omega, and dofs, a row of characters
+/// per coordinate.
 /// @throws FileError
 std::vector<std::filesystem::path> write_matlab(const std::filesystem::path& stem,
                                                 const Model& model, const Assembler& assembler,

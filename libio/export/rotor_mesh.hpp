@@ -35,19 +35,20 @@ struct RotorMesh {
 
 /// Nodes and elements of the shaft, in the model's numbering. Bodies have no place in it.
 ///
-/// Point data: "node" from 1; "disk", "bearing" and "contact", numbers from 1 of what is there, or 0,
-/// and "seal" of a model that has some;
-/// "disk_mass_kg"; of every field the displacement [m] under its name, and the tilts [rad] with
+/// Point data: "node" from 1; "disk", "bearing" and "contact", numbers from 1 of what is there, or
+/// 0, and "seal" of a model that has some; "disk_mass_kg"; of every field the displacement [m]
+/// under its name, and the tilts [rad] with
 /// "_tilt". Cell data: "segment" from 1, the diameters at both ends, "youngs_modulus_pa",
-/// "density_kg_m3"; if there are layers, whose cells lie on those of the shaft, "layer" from 1, 0 of
-/// the shaft.
+/// "density_kg_m3"; if there are layers, whose cells lie on those of the shaft, "layer" from 1, 0
+/// of the shaft.
 ///
 /// @param group  name of integer cell data with the segment's number; empty: none
 /// @throws ModelError  if the model has no shaft
 RotorMesh line_mesh(const Model& model, const Assembler& assembler,
                     const std::vector<MeshField>& fields, const std::string& group);
 
-/// The surface of shaft and disks, of disks whose size is given. Cell data: "part", 0 shaft, 1 disk.
+/// The surface of shaft and disks, of disks whose size is given. Cell data: "part", 0 shaft, 1
+/// disk.
 RotorMesh surface_mesh(const VtkScene& scene, const std::vector<MeshField>& fields);
 
 /// VTK's format of unstructured grids, as text.

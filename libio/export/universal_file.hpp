@@ -9,13 +9,15 @@
 
 namespace whirl::inline io {
 
-/// A dataset 164 (units: SI) and for each pair three datasets 58: receptance, mobility, accelerance.
+/// A dataset 164 (units: SI) and for each pair three datasets 58: receptance, mobility,
+/// accelerance.
 ///
-/// Records have 80 columns. Values are complex double precision, E20.12; frequencies in Hz are even or,
-/// where they are not to six digits, written one by one as E13.5, which is all that the format has.
-/// Undamped resonances, where responses are NaN, are left out. The speed is the value of the z axis
-/// [rpm]. Nodes are numbered as in results, bodies behind them; forward and backward motions and probes
-/// have no direction in the format (0, a scalar), and the name of theirs. Tilts are in rad.
+/// Records have 80 columns. Values are complex double precision, E20.12; frequencies in Hz are even
+/// or, where they are not to six digits, written one by one as E13.5, which is all that the format
+/// has. Undamped resonances, where responses are NaN, are left out. The speed is the value of the z
+/// axis [rpm]. Nodes are numbered as in results, bodies behind them; forward and backward motions
+/// and probes have no direction in the format (0, a scalar), and the name of theirs. Tilts are in
+/// rad.
 ///
 /// @source [UniversalFile58]
 std::string universal_text(const FrequencyResponse& found, const Model& model,

@@ -78,7 +78,8 @@ void render(const fs::path& series, const fs::path& to, const VideoOptions& opti
   }
 }
 
-/// Makes a video .gif, played in a loop, of the pictures video_0001.png, ...; VTK does not write it.
+/// Makes a video .gif, played in a loop, of the pictures video_0001.png, ...; VTK does not write
+/// it.
 void make_gif(const Folder& folder, long rate) {
   const std::string to = folder.path() / "video.gif";
   const std::vector<std::string> with_ffmpeg{

@@ -97,8 +97,8 @@ struct VtkOptions {
 /// Point data: "displacement [m]" and "rotation [rad]", both true; "undeformed position [m]";
 /// "contact force [N]", at both ends of the lines. Cell data: "part" (0 shaft, 1 disk, 2 stator,
 /// 3 contact force, 4 a disk whose size is not given: a symbol of which every other sector is
-/// there), "member" (its number from 1 among its kind), "in touch" (0, 1). Field data: "time [s]", "deflection scale", "force scale [m/N]", "disk names", "stator names", "contact
-/// names".
+/// there), "member" (its number from 1 among its kind), "in touch" (0, 1). Field data: "time [s]",
+/// "deflection scale", "force scale [m/N]", "disk names", "stator names", "contact names".
 ///
 /// The collection is removed first and written last: where there is one, it is complete.
 ///
@@ -110,9 +110,9 @@ std::vector<std::filesystem::path> write_vtk_series(const std::filesystem::path&
                                                     const std::vector<VtkFrame>& frames,
                                                     const VtkOptions& options = {});
 
-/// The scale at which the largest displacement of all frames is drawn as 12 % of the scene's size, or
-/// the largest tilt as 0.35 rad if that is less: disks that tilt more would look stretched. The size
-/// is the distance of the outermost points or the largest diameter. 1 where nothing moves.
+/// The scale at which the largest displacement of all frames is drawn as 12 % of the scene's size,
+/// or the largest tilt as 0.35 rad if that is less: disks that tilt more would look stretched. The
+/// size is the distance of the outermost points or the largest diameter. 1 where nothing moves.
 double vtk_fitting_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames);
 
 /// The fitting scale, and at least 1: a motion is never drawn smaller than it is.

@@ -1,6 +1,6 @@
 #pragma once
-/// Amplitude over phase, and loops, of unbalance responses, of those to forces of other frequencies and of
-/// orders of measurements.
+/// Amplitude over phase, and loops, of unbalance responses, of those to forces of other frequencies
+/// and of orders of measurements.
 
 #include "libio/figures/common.hpp"
 

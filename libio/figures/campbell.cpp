@@ -79,8 +79,8 @@ double between(const std::vector<double>& x, const Mat& m, Eigen::Index i, doubl
   return interpolated(x, row, at, Interpolation::linear);
 }
 
-/// Marks of internal resonances, a line between both branches, and their table. Those at which bouncing
-/// was found are named.
+/// Marks of internal resonances, a line between both branches, and their table. Those at which
+/// bouncing was found are named.
 void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
   constexpr std::size_t most = 10;  // that are named and told although nothing was found there
   const std::vector<ResonancePlace>& places = result_of<ResonanceStudy>(result).places;

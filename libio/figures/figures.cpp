@@ -71,7 +71,8 @@
 
 namespace whirl::inline io {
 
-// The list twice: as declarations of functions, each in the file of its figures, and as their calls.
+// The list twice: as declarations of functions, each in the file of its figures, and as their
+// calls.
 FigureKind KINDS;
 
 ResultView::ResultView(const std::filesystem::path& file_path)

@@ -64,8 +64,9 @@ bool is_in(const FigureKind& kind, const ResultView& result);
 /// The figures of a kind, with kind and title filled in.
 std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result);
 
-/// Lays what `whirl continue` followed over figures of a study: branches over the bifurcation diagram
-/// of a sweep along the same value, bifurcation curves over maps of the same two values, either way round.
+/// Lays what `whirl continue` followed over figures of a study: branches over the bifurcation
+/// diagram of a sweep along the same value, bifurcation curves over maps of the same two values,
+/// either way round.
 ///
 /// @param figures  of one kind of the study; left as they are where the other result does not fit
 /// @param name     of the other result, in a note
@@ -73,7 +74,8 @@ std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result)
 std::string lay_over(std::vector<Figure>& figures, const ResultView& study, const ResultView& over,
                      const std::string& name);
 
-/// Values other than those that are varied in which the models of two results differ, by their paths.
+/// Values other than those that are varied in which the models of two results differ, by their
+/// paths.
 std::vector<std::string> other_values(const ResultView& study, const ResultView& over);
 
 }  // namespace whirl::inline io

@@ -33,7 +33,8 @@ std::string case_name(int number) {
   return fmt::format("case {}", number + 1);
 }
 
-/// Speeds at which a peak of some amplification would be too near: an area around those of the machine.
+/// Speeds at which a peak of some amplification would be too near: an area around those of the
+/// machine.
 Curve forbidden_area(const LateralReport& r, double highest) {
   const OperatingRange range{r.minimum_speed, r.maximum_speed, r.trip_speed};
   constexpr double damped = least_amplification;

@@ -150,7 +150,8 @@ std::vector<Category> basin_categories(const PointRows<BasinsPoint>& points,
   return all;
 }
 
-/// Displacements at the starts [m, rad], a row per start, x and y at least; NaN where there is none.
+/// Displacements at the starts [m, rad], a row per start, x and y at least; NaN where there is
+/// none.
 Mat starts_of(const PointRows<BasinsPoint>& points) {
   const auto count = static_cast<Eigen::Index>(points.size());
   Eigen::Index width = 2;

@@ -147,7 +147,8 @@ std::vector<Figure> mac_figures(const ResultView& result) {
   return {f};
 }
 
-/// How the exponents settle over the revolutions that they are averaged over; nothing: that is not known.
+/// How the exponents settle over the revolutions that they are averaged over; nothing: that is not
+/// known.
 std::optional<Figure> exponents_over_time(const ResultView& result) {
   const std::string path = "/classify/exponent_estimate";
   if (!result.file.has(path) || !result.file.has("/classify/averaged")) return std::nullopt;

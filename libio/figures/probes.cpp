@@ -23,7 +23,8 @@ struct ProbeLines {
   std::vector<double> peak_to_peak;  ///< [m]
 };
 
-/// Of whole revolutions, so that harmonics of the speed are lines: the last ones, as ResponseSpectra.
+/// Of whole revolutions, so that harmonics of the speed are lines: the last ones, as
+/// ResponseSpectra.
 ProbeLines lines_of(const RecordedMotion& motion, const Vec& reading) {
   ProbeLines lines;
   const long revolutions = smooth_length(reading.size() / motion.per_revolution);

@@ -15,8 +15,8 @@ struct ShaftShapes {
   std::vector<std::string> names;  ///< of the places: "node 3: seal", or nothing between nodes
 };
 
-/// The shapes between the nodes too, by the shape functions of the elements; at the nodes only where
-/// the model cannot be read again.
+/// The shapes between the nodes too, by the shape functions of the elements; at the nodes only
+/// where the model cannot be read again.
 /// @param full     full vectors as columns, see DofMap
 /// @throws FileError  for vectors that are not of the nodes of the result
 ShaftShapes shaft_shapes(const ResultView& result, const CMat& full);

@@ -42,7 +42,8 @@ constexpr PoleKind pole_kinds[] = {
     {"new", Paint::gray, Marker::circle, 2.5, [](const OrderPole&) { return true; }},
 };
 
-/// Where the first singular value has the most of its range: to the highest pole of a mode, and some.
+/// Where the first singular value has the most of its range: to the highest pole of a mode, and
+/// some.
 double last_frequency(const RunningModes& found) {
   double highest = 0.0;
   for (const RunningMode& mode : found.modes) highest = std::max(highest, mode.frequency());

@@ -105,8 +105,8 @@ Panel force_panel(const SweepView& v) {
   return n;
 }
 
-/// The same over the force of all unbalances, as if these were at one angle; nothing: there are none, or
-/// they are what is varied.
+/// The same over the force of all unbalances, as if these were at one angle; nothing: there are
+/// none, or they are what is varied.
 std::optional<Panel> relative_force_panel(const ResultView& result, const SweepView& v) {
   if (!result.model || v.axis.path.starts_with("unbalance.")) return std::nullopt;
   double moment = 0.0;

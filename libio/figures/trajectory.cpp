@@ -88,8 +88,9 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
   return figures;
 }
 
-/// The mean position, where it is farther from the axis than the motion goes from it, such as the sag
-/// of a heavy rotor; else the axis. Seen from the rotor it is a circle beside which nothing is seen.
+/// The mean position, where it is farther from the axis than the motion goes from it, such as the
+/// sag of a heavy rotor; else the axis. Seen from the rotor it is a circle beside which nothing is
+/// seen.
 Complex leading_middle(const StationMotion& of, const MotionSamples& shown) {
   const Vec x = of.x.segment(shown.first, shown.size()),
             y = of.y.segment(shown.first, shown.size());
@@ -150,8 +151,8 @@ std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown,
   return curves;
 }
 
-/// The clearance circle of a contact, or the line of a stop, where it stands still in a frame and is
-/// not far outside.
+/// The clearance circle of a contact, or the line of a stop, where it stands still in a frame and
+/// is not far outside.
 /// @param size  of the orbit [m]
 std::optional<Curve> clearance_curve(const Contact& contact, double size, double factor,
                                      bool is_rotating) {

@@ -22,8 +22,8 @@ std::string content_of(const fs::path& file) {
       fmt::format("{}: {}; expected a file of ROSS, TOML or JSON", file.string(), text.problem));
 }
 
-/// The tree of a file, by how it begins: "[" begins a list of JSON, or a table of TOML. A byte-order mark
-/// before it, as some editors leave, counts for nothing.
+/// The tree of a file, by how it begins: "[" begins a list of JSON, or a table of TOML. A
+/// byte-order mark before it, as some editors leave, counts for nothing.
 ConfigNode tree_of(std::string text, const std::string& name) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   if (text.starts_with(mark)) text.erase(0, mark.size());

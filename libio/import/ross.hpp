@@ -100,7 +100,8 @@ struct RossRotor {
 /// Every key of the file that is not read is in `left_out`.
 ///
 /// @param root  tree of a file, TOML or JSON
-/// @throws ModelError  with the places of all problems: no rotor of ROSS, a value that is missing or
+/// @throws ModelError  with the places of all problems: no rotor of ROSS, a value that is missing
+/// or
 ///                     none, tables of unequal length
 RossRotor read_ross(const ConfigNode& root);
 

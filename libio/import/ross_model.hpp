@@ -27,13 +27,15 @@ struct ImportedModel {
 /// Shear coefficients of ROSS's Hutchinson are written as numbers, since it has 1 + nu where
 /// [Hutchinson2001] has its square:
 ///
-///   kappa = 6 (1 + r^2)^2 (1 + nu) / ((1 + r^2)^2 (7 + 12 nu + 4 nu^2) + 4 r^2 (5 + 6 nu + 2 nu^2))
+///   kappa = 6 (1 + r^2)^2 (1 + nu) / ((1 + r^2)^2 (7 + 12 nu + 4 nu^2) + 4 r^2 (5 + 6 nu + 2
+///   nu^2))
 ///
 /// with r the inner over the outer diameter.
 ///
 /// @param source  name of the file that it was read from
 /// @param stem    what names of tables begin with
-/// @throws ModelError  if shaft elements leave nodes out, or a layer is not as long as what it is on
+/// @throws ModelError  if shaft elements leave nodes out, or a layer is not as long as what it is
+/// on
 ImportedModel model_of(const RossRotor& rotor, const std::string& source, const std::string& stem);
 
 }  // namespace whirl::inline io

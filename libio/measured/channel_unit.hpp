@@ -23,8 +23,8 @@ ChannelUnit channel_unit(std::string_view text);
 /// A number in the unit of a channel, "-5 V", "0.5"; nothing: it is none.
 std::optional<std::pair<double, ChannelUnit>> channel_value(std::string_view text);
 
-/// A gain: "7.87 V/mm", "-8 mV/um", "200 mV/mil"; "0.787 1/mm" of channels without unit; a plain number
-/// where channels are lengths.
+/// A gain: "7.87 V/mm", "-8 mV/um", "200 mV/mil"; "0.787 1/mm" of channels without unit; a plain
+/// number where channels are lengths.
 Parsed<ProbeGain> parse_gain(const std::string& text);
 
 }  // namespace whirl::inline io

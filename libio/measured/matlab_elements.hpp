@@ -5,8 +5,8 @@
 
 namespace whirl::inline io {
 
-/// Checks that a file has all values that its variables say to have. matio, which reads them, fills what
-/// is missing from wherever its memory was used before, or with zeros.
+/// Checks that a file has all values that its variables say to have. matio, which reads them, fills
+/// what is missing from wherever its memory was used before, or with zeros.
 ///
 /// Files of level 4 and 7.3, and what is no MATLAB file at all, are left to matio.
 ///

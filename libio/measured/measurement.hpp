@@ -57,7 +57,8 @@ Model model_for(const Model& model, const RecordSource& source);
 ///   set     values of the model that are others then, ["disk.fan.unbalance=200g.mm"]
 ///
 /// @param source  the file, and what holds where a record of the list says nothing
-/// @throws ModelError, FileError  with every problem found in the list, and for what is wrong with a record
+/// @throws ModelError, FileError  with every problem found in the list, and for what is wrong with
+/// a record
 std::vector<SourcedRecord> read_records(const RecordSource& source);
 
 }  // namespace whirl::inline io

@@ -19,8 +19,8 @@ namespace {
 constexpr double same_rate = 1e-4;  ///< to which --rate gives that of a file more digits
 constexpr double near_rate = 0.1;   ///< to which a rate is that of times in seconds, not in ms
 
-/// Numbers of the steps at which times stand, from 0: a time that comes after several steps has left
-/// the samples between out.
+/// Numbers of the steps at which times stand, from 0: a time that comes after several steps has
+/// left the samples between out.
 std::vector<double> step_numbers(const RawChannel& time) {
   const std::vector<double>& t = time.samples;
   std::vector<double> steps;

@@ -44,12 +44,14 @@ void travel(Bytes& bytes, Is<RawRecord> auto& record) {
 /// Share of a step that times may be off.
 constexpr double even_to = 0.1;
 
-/// Makes a record of channels of equal length: lengths in m, voltages in V. Without a rate the channel
-/// named time, or t, or else the first one in a unit of time says it, whose steps must be even to a tenth.
-/// Where it jumps by several of them the samples between are NaN.
+/// Makes a record of channels of equal length: lengths in m, voltages in V. Without a rate the
+/// channel named time, or t, or else the first one in a unit of time says it, whose steps must be
+/// even to a tenth. Where it jumps by several of them the samples between are NaN.
 ///
-/// @param rate  for files that say neither, or with more digits than theirs; nothing: nobody knows [1/s]
-/// @throws ModelError  for a rate that is not that of the file, for times that do not ascend evenly, for
+/// @param rate  for files that say neither, or with more digits than theirs; nothing: nobody knows
+/// [1/s]
+/// @throws ModelError  for a rate that is not that of the file, for times that do not ascend
+/// evenly, for
 ///                     channels of different lengths, without any, or where nothing says the rate
 MeasuredRecord finished(RawRecord raw, std::optional<double> rate);
 

@@ -1,4 +1,5 @@
-/// Universal files: datasets 58 (text) and 58b (numbers as a processor has them) of responses over time.
+/// Universal files: datasets 58 (text) and 58b (numbers as a processor has them) of responses over
+/// time.
 
 #include <fmt/format.h>
 
@@ -364,8 +365,8 @@ std::optional<double> length_factor_in(UniversalText& text) {
   return *length;
 }
 
-/// Names of channels: their first lines; of those that have one in common, for instance what kind of
-/// function they are, the responses or else the labels, where these differ.
+/// Names of channels: their first lines; of those that have one in common, for instance what kind
+/// of function they are, the responses or else the labels, where these differ.
 void tell_apart(std::vector<RawChannel>& channels, const std::vector<ResponseNames>& names) {
   std::map<std::string, std::vector<std::size_t>> alike;
   for (std::size_t i = 0; i < channels.size(); ++i) alike[channels[i].name].push_back(i);

@@ -12,11 +12,11 @@ namespace whirl::inline io {
 ///
 /// The first line that is not a comment (#, !, %, //) names the columns in any order: `speed`,
 /// `whirl` or both, and any of kxx ... kyy, cxx ... cyy, mxx ... myy (added mass), and of tilts
-/// ktxx ... ktyy, ctxx ... ctyy; what is absent is zero. Names of other programs are known, too (see
-/// columns_named). Units stand in brackets behind names, in a line below them, or with the values;
-/// without any, SI. Commas, semicolons, tabs or blanks delimit; where commas do not, decimals may
-/// have them. Speeds must ascend, or whirl frequencies where there are no speeds; rows over both may
-/// come in any order. See table_lines for names in a comment.
+/// ktxx ... ktyy, ctxx ... ctyy; what is absent is zero. Names of other programs are known, too
+/// (see columns_named). Units stand in brackets behind names, in a line below them, or with the
+/// values; without any, SI. Commas, semicolons, tabs or blanks delimit; where commas do not,
+/// decimals may have them. Speeds must ascend, or whirl frequencies where there are no speeds; rows
+/// over both may come in any order. See table_lines for names in a comment.
 ///
 /// @param file      for messages
 /// @param problems  receives what is wrong, with its place; what is so in many rows once

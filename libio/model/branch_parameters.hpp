@@ -18,7 +18,8 @@ struct BranchParameter {
   ParameterRange range;
 };
 
-/// The parameter of the branch, the second one of bifurcation curves, if any, and the model at their values.
+/// The parameter of the branch, the second one of bifurcation curves, if any, and the model at
+/// their values.
 struct BranchParameters {
   BranchParameter along;
   std::optional<BranchParameter> across{};
@@ -32,7 +33,8 @@ struct BranchParameters {
   }
   /// @throws NumericalError  where there is no such model
   std::shared_ptr<const Scene> scene(double first, double second) const;
-  /// The value of the second parameter, as --set takes it, a line for every path; empty: there is none.
+  /// The value of the second parameter, as --set takes it, a line for every path; empty: there is
+  /// none.
   std::string fixed() const;
 
  private:

@@ -289,8 +289,8 @@ bool is_matrix_entry(const std::string& key) {
   return key == "xx" || key == "yy" || key == "xy" || key == "yx";
 }
 
-/// Turns one value that stands for both of a diagonal into a table of these, so that an entry can be
-/// set beside them.
+/// Turns one value that stands for both of a diagonal into a table of these, so that an entry can
+/// be set beside them.
 void make_matrix(ConfigNode& node) {
   using enum ConfigNode::Kind;
   if (node.kind != integer && node.kind != real && node.kind != string) return;

@@ -49,7 +49,8 @@ ConfigNode parse_toml(std::string_view text, const std::string& file);
 /// Elements of arrays go by name or by number from 1. The value is read as TOML where it is TOML,
 /// else as a string. Tables that do not exist yet are made; elements of arrays are not.
 ///
-/// @throws ModelError  for a line without "=", an element that does not exist, a path of more than 16
+/// @throws ModelError  for a line without "=", an element that does not exist, a path of more than
+/// 16
 ///                     parts
 void set_value(ConfigNode& root, std::string_view assignment);
 

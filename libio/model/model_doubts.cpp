@@ -32,8 +32,8 @@ constexpr double slimmest =
     500.0;  ///< lengths of a shaft in its diameters; of line shafts some 100
 constexpr double same_diameter = 1e-6;  ///< relative: rounding of units
 
-/// What numbers of a key are like in machines. One without a unit that is not like this was most likely
-/// meant in another unit; with a unit it is taken as it stands.
+/// What numbers of a key are like in machines. One without a unit that is not like this was most
+/// likely meant in another unit; with a unit it is taken as it stands.
 struct UsualNumbers {
   std::string_view key;  ///< last part of its path
   std::string_view unit;
@@ -79,8 +79,8 @@ bool is_more_than_a_turn(double number) {
 
 using NumbersByPath = std::map<std::string, const ConfigNode*>;
 
-/// Adds numbers without a unit that may be doubted, by the paths that messages may have for them: what
-/// is in a list has its name or its number.
+/// Adds numbers without a unit that may be doubted, by the paths that messages may have for them:
+/// what is in a list has its name or its number.
 void add_bare_numbers(const ConfigNode& node, const std::string& key, const std::string& path,
                       NumbersByPath& found) {
   using enum ConfigNode::Kind;
@@ -215,8 +215,8 @@ Ring ring_of(const Layer& layer, const LayerSpan& span) {
           .has_stiffness = layer.carries != Carries::mass};
 }
 
-/// Where two rings are at one place: the ends of that, and there the inner diameter of the outer one
-/// and the outer one of the inner.
+/// Where two rings are at one place: the ends of that, and there the inner diameter of the outer
+/// one and the outer one of the inner.
 struct Overlap {
   double from = 0.0, to = 0.0;
   double inner = 0.0, outer = 0.0;

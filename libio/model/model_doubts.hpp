@@ -10,9 +10,9 @@
 
 namespace whirl::inline io {
 
-/// Numbers without a unit that are unlike those of machines (angles, densities, moduli, friction, oil,
-/// clearances, unbalances, speeds), speeds far outside of the machine's own range, shafts as long as houses,
-/// layers where something else is, and columns that tables of bearings lack.
+/// Numbers without a unit that are unlike those of machines (angles, densities, moduli, friction,
+/// oil, clearances, unbalances, speeds), speeds far outside of the machine's own range, shafts as
+/// long as houses, layers where something else is, and columns that tables of bearings lack.
 ///
 /// @param text, name, sets, files  as of parse_model
 /// @return  with their places, in the order in which they were found; each says what may be meant
@@ -20,8 +20,8 @@ namespace whirl::inline io {
 std::vector<Problem> model_doubts(const std::string& text, const std::string& name,
                                   const std::vector<std::string>& sets, const NamedFiles& files);
 
-/// Says of a speed far outside of the range that the model gives its machine how far; empty: it is not, or
-/// there is no range.
+/// Says of a speed far outside of the range that the model gives its machine how far; empty: it is
+/// not, or there is no range.
 std::string speed_doubt(const Model& model);
 
 /// Contacts that a rotor touches at rest.

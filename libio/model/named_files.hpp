@@ -7,8 +7,8 @@ namespace whirl::inline io {
 
 /// Files with tables that a model may name, and where they are.
 ///
-/// A model that is stored in a result has its tables in it. Who reads a stranger's result must not open
-/// what a name in there leads to: no file, and no device or pipe, either.
+/// A model that is stored in a result has its tables in it. Who reads a stranger's result must not
+/// open what a name in there leads to: no file, and no device or pipe, either.
 struct NamedFiles {
   /// None.
   NamedFiles() = default;
@@ -17,7 +17,8 @@ struct NamedFiles {
   NamedFiles(std::filesystem::path where)  // NOLINT: a folder says it
       : folder(std::move(where)), of_text(true), of_sets(true) {}
   NamedFiles(const char* where) : NamedFiles(std::filesystem::path(where)) {}
-  /// Only those that PATH=VALUE lines name, which somebody gives at the command line: of a stored model.
+  /// Only those that PATH=VALUE lines name, which somebody gives at the command line: of a stored
+  /// model.
   static NamedFiles of_sets_in(std::filesystem::path where) {
     NamedFiles files(std::move(where));
     files.of_text = false;

@@ -26,12 +26,12 @@ struct ShaftRow {
 /// Reads a shaft from CSV.
 ///
 /// The first line that is not a comment (#) names the columns, in any order, each with its unit in
-/// brackets (without one, SI): length; outer_diameter, or outer_left and outer_right; inner_diameter,
-/// or inner_left and inner_right; material; layer; elements; carries; rayleigh_mass,
-/// rayleigh_stiffness. Only length and an outer diameter are needed. Rows follow one another from
-/// left to right; one with a layer above 1 lies on the last one of layer 1, and may leave its length
-/// out. Numbers of stations or rows ("Sta. No.", "#") are not read; positions are refused, as they
-/// are no lengths.
+/// brackets (without one, SI): length; outer_diameter, or outer_left and outer_right;
+/// inner_diameter, or inner_left and inner_right; material; layer; elements; carries;
+/// rayleigh_mass, rayleigh_stiffness. Only length and an outer diameter are needed. Rows follow one
+/// another from left to right; one with a layer above 1 lies on the last one of layer 1, and may
+/// leave its length out. Numbers of stations or rows ("Sta. No.", "#") are not read; positions are
+/// refused, as they are no lengths.
 ///
 /// @param file      for messages
 /// @param problems  receives what is wrong, with its place; what is so in many rows once

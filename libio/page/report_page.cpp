@@ -169,7 +169,8 @@ Record table_record(const FigureTable& table) {
   return Record().set("header", list(table.header)).set("rows", rows);
 }
 
-/// What several results show over each other: figures of one kind and variant that all of them have.
+/// What several results show over each other: figures of one kind and variant that all of them
+/// have.
 Record comparison_record(const std::vector<std::unique_ptr<ResultView>>& results,
                          const std::vector<std::vector<Figure>>& figures, ArrayStore& arrays) {
   const std::vector<std::string> names = names_of(results);

@@ -16,9 +16,9 @@ struct ReportPage {
 
 /// Every figure that the results hold, their facts and what moves, in one self-contained page.
 ///
-/// Results of one machine (see machine_report.hpp) are one report of it: its drawing once, then a section
-/// per analysis. Others are shown one after the other, below what they show over each other. A figure
-/// that fails is told with its reason, and the rest is drawn.
+/// Results of one machine (see machine_report.hpp) are one report of it: its drawing once, then a
+/// section per analysis. Others are shown one after the other, below what they show over each
+/// other. A figure that fails is told with its reason, and the rest is drawn.
 ///
 /// @param results  one or more
 /// @param version  of the program that makes the page

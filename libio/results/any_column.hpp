@@ -1,6 +1,7 @@
 #pragma once
-/// Columns of results (libbase/structs/column.hpp) whatever their types: lists that the compiler makes, so that
-/// what reads, writes and tells results is compiled once and not for every one of them.
+/// Columns of results (libbase/structs/column.hpp) whatever their types: lists that the compiler
+/// makes, so that what reads, writes and tells results is compiled once and not for every one of
+/// them.
 
 #include <algorithm>
 #include <array>

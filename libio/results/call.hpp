@@ -34,14 +34,15 @@ std::vector<std::string> options_named(const std::vector<std::string>& options,
 std::vector<std::string> options_without(const std::vector<std::string>& options,
                                          const std::vector<std::string_view>& names);
 
-/// The words that make a call again on the model that is stored with it: its verb, its file and those
-/// of its options that count again. What was set is in the stored model already.
+/// The words that make a call again on the model that is stored with it: its verb, its file and
+/// those of its options that count again. What was set is in the stored model already.
 /// @param left_out  options that do not count: only the line at hand says what is written
 std::vector<std::string> words_again(const std::string& program, const Call& call,
                                      std::vector<std::string_view> left_out);
 
 /// Takes a command line apart as early versions stored it: words, in any of the forms "--set X",
-/// "--set=X". Where a value was given several times the last one holds, but of --set and --over all.
+/// "--set=X". Where a value was given several times the last one holds, but of --set and --over
+/// all.
 /// @param words  program, verb, file and options
 Call parse_call(const std::vector<std::string>& words);
 
@@ -59,8 +60,8 @@ struct ResultOrigin {
   std::string_view version;       ///< of the program
 };
 
-/// Writes what every result file holds beside its results: its format, its origin, the time, and the
-/// model as it was.
+/// Writes what every result file holds beside its results: its format, its origin, the time, and
+/// the model as it was.
 void write_origin(ResultWriter& file, const ResultOrigin& origin, const Model& model);
 
 /// The model that a result was computed of, as write_origin stored it.

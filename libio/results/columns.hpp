@@ -1,6 +1,6 @@
 #pragma once
-/// Results by their columns (libbase/structs/column.hpp): into a result file and back, as JSON, and as what a
-/// file is checked against.
+/// Results by their columns (libbase/structs/column.hpp): into a result file and back, as JSON, and
+/// as what a file is checked against.
 
 #include <functional>
 #include <optional>

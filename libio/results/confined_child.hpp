@@ -14,7 +14,8 @@ namespace whirl::inline io {
 /// A regular file that is open for reading, whatever its name will mean later.
 class OpenedFile {
  public:
-  /// @throws FileError  if there is none, if it may not be read, or if it is something else, such as a
+  /// @throws FileError  if there is none, if it may not be read, or if it is something else, such
+  /// as a
   ///                    directory, a device or a pipe
   explicit OpenedFile(const std::filesystem::path& file);
   ~OpenedFile();
@@ -31,18 +32,19 @@ class OpenedFile {
   std::size_t size_ = 0;
 };
 
-/// Held by whoever uses a library that a child uses, too: a child that is made meanwhile would wait for
-/// a lock of that library without end.
+/// Held by whoever uses a library that a child uses, too: a child that is made meanwhile would wait
+/// for a lock of that library without end.
 std::recursive_mutex& library_lock();
 
 /// In a child: from now on it can open no file any more. Said as soon as its own one is open.
 void open_nothing_more();
 
-/// Reads a file in a child process: whatever the file does to the library that reads it is done to the
-/// child, and an error here.
+/// Reads a file in a child process: whatever the file does to the library that reads it is done to
+/// the child, and an error here.
 ///
-/// The child has nothing open but the file and the way back, cannot write to files, and has a limit of memory (half of the machine's, 1 GB or more) and one of processor
-/// time for every answer (10 s, and 1 s for every MB of the file).
+/// The child has nothing open but the file and the way back, cannot write to files, and has a limit
+/// of memory (half of the machine's, 1 GB or more) and one of processor time for every answer (10
+/// s, and 1 s for every MB of the file).
 class ConfinedChild {
  public:
   /// What goes between both.

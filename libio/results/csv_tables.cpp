@@ -104,7 +104,8 @@ struct TableDimension {
   std::size_t number = 0;  ///< of the dimensions of the dataset
 };
 
-/// A dataset of a table. Numbers are read for some rows at a time, texts and complex numbers at once.
+/// A dataset of a table. Numbers are read for some rows at a time, texts and complex numbers at
+/// once.
 struct TableSource {
   std::string path;
   std::vector<std::size_t> rows{};   ///< dimensions that are along the rows of the table
@@ -200,7 +201,8 @@ void add_columns(const ResultReader& file, const std::string& path,
   for (auto& [name, source] : parts) table.sources.push_back(std::move(source));
 }
 
-/// Calls f with stretches of the rows of a table, one per dimension, that make no more than so many.
+/// Calls f with stretches of the rows of a table, one per dimension, that make no more than so
+/// many.
 template <class F>
 void each_block(const std::vector<Stretch>& rows, Index most, const F& f) {
   if (std::any_of(rows.begin(), rows.end(), [](const Stretch& s) { return s.count == 0; })) return;

@@ -23,11 +23,11 @@ std::string csv_quoted(std::string_view cell);
 /// one table, a row per point of these axes; names and counters along other axes (stations,
 /// contacts, modes) become columns, as do the parts of complex numbers. The first line says what
 /// stands in each column, with its SI unit: "x left disk [m]". Numbers are as exact as in the file;
-/// what is not a number is left empty. Texts that begin like a formula (=, +, -, @) get an apostrophe
-/// in front. Left out are datasets that only this program goes on from.
+/// what is not a number is left empty. Texts that begin like a formula (=, +, -, @) get an
+/// apostrophe in front. Left out are datasets that only this program goes on from.
 ///
-/// A table has no room for a mark of its origin: one that is there may be replaced if its first line
-/// is the same.
+/// A table has no room for a mark of its origin: one that is there may be replaced if its first
+/// line is the same.
 ///
 /// @param samples  of the motion, the rows of its tables; left out: all
 /// @return  the files, in the order of the groups

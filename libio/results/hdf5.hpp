@@ -79,7 +79,8 @@ class DatasetBlocks {
 /// Thrown out of a writing that is given up.
 struct WritingGivenUp {};
 
-/// Writes a result file beside its place, where commit() puts it whole; or keeps what it would hold.
+/// Writes a result file beside its place, where commit() puts it whole; or keeps what it would
+/// hold.
 ///
 /// Objects are named by absolute paths, "/trajectory/x"; groups are made on the way. Datasets above
 /// 64 kB are compressed. The same calls write the same bytes. Every member throws FileError, which
@@ -119,7 +120,8 @@ class ResultWriter {
                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void dataset(const std::string& path, const std::vector<int>& values,
                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
-  /// Begins one whose numbers come block by block, real or integer ones: several may be open at a time.
+  /// Begins one whose numbers come block by block, real or integer ones: several may be open at a
+  /// time.
   DatasetBlocks dataset_blocks(const std::string& path, ObjectKind kind,
                                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   /// All that was kept of another one.
@@ -163,13 +165,14 @@ struct Stretch {
 
 /// Reads a result file, or any other HDF5 file of numbers and texts.
 ///
-/// HDF5 1.10 ends the process on some damaged files, writes where it must not, and never returns from
-/// others: it reads in a child process (ConfinedChild), whoever wrote the file and whatever its checksum
-/// says, which anybody can write. The child holds the file open, and is asked for everything.
+/// HDF5 1.10 ends the process on some damaged files, writes where it must not, and never returns
+/// from others: it reads in a child process (ConfinedChild), whoever wrote the file and whatever
+/// its checksum says, which anybody can write. The child holds the file open, and is asked for
+/// everything.
 ///
 /// Every member throws FileError, which names file and object, for what is missing, damaged or of
-/// another type or shape; has() only where HDF5 does not survive. Nothing outside of the file is ever
-/// read, and no dataset that says to be larger than the file can hold.
+/// another type or shape; has() only where HDF5 does not survive. Nothing outside of the file is
+/// ever read, and no dataset that says to be larger than the file can hold.
 class ResultReader {
  public:
   /// @throws FileError  if there is no such file, if it is no HDF5 file or a damaged one, or if
@@ -186,8 +189,8 @@ class ResultReader {
   double number_attribute(const std::string& object, const std::string& name) const;
 
   ObjectKind kind(const std::string& object) const;
-  /// Per dimension of a dataset the path of the dataset along it, which has as many elements; "" for
-  /// none.
+  /// Per dimension of a dataset the path of the dataset along it, which has as many elements; ""
+  /// for none.
   std::vector<std::string> axes(const std::string& path) const;
   /// Sizes of a dataset's dimensions.
   std::vector<Eigen::Index> shape(const std::string& path) const;
@@ -207,13 +210,13 @@ class ResultReader {
   std::vector<int> integers(const std::string& path) const;
   std::vector<std::string> strings(const std::string& path) const;
 
-  /// Names of the attributes of a dataset or group, in the order of the alphabet; those that HDF5 keeps
-  /// axes in are left out.
+  /// Names of the attributes of a dataset or group, in the order of the alphabet; those that HDF5
+  /// keeps axes in are left out.
   std::vector<std::string> attributes(const std::string& object) const;
   /// Names of the members of a group, in the order of the alphabet.
   std::vector<std::string> list(const std::string& group) const;
-  /// Paths of all groups, "/" among them, and of all datasets. A group that several links lead to, or
-  /// that lies in itself, is one, and is looked into once.
+  /// Paths of all groups, "/" among them, and of all datasets. A group that several links lead to,
+  /// or that lies in itself, is one, and is looked into once.
   std::vector<std::string> groups() const;
   std::vector<std::string> datasets() const;
 

@@ -37,8 +37,8 @@ struct KeptStudy {
   /// Adds what an earlier run of the same study, or of a part of it, has left.
   std::function<void(Study&, const ResultReader&)> take;
   std::function<Study(Study begun, const Monitor<Study>&)> run;
-  /// A point of it as bytes, and back: rows that are new are kept beside its file while saving all of
-  /// them would take long. Left out: all is saved each time.
+  /// A point of it as bytes, and back: rows that are new are kept beside its file while saving all
+  /// of them would take long. Left out: all is saved each time.
   std::function<std::string(const Study&, std::size_t point)> pack{};
   std::function<void(Study&, std::size_t point, std::string_view bytes)> unpack{};
 };

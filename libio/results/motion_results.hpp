@@ -17,8 +17,8 @@ class ResultWriter;
 /// Groups of a rotor at rest: what its bearings and films carry, and how its shaft bends.
 void write_rest(ResultWriter& file, const StaticStudy& study);
 
-/// Groups /critical and /critical_map, which is solved here: nothing but a file shows it. A map that
-/// cannot be solved is left out; who draws it tells why.
+/// Groups /critical and /critical_map, which is solved here: nothing but a file shows it. A map
+/// that cannot be solved is left out; who draws it tells why.
 /// @param structure  that the speeds were found of
 void write_criticals(ResultWriter& file, const Structure& structure, const CriticalSpeeds& found);
 

@@ -101,7 +101,8 @@ MotionSamples samples_of(const MotionWindow& window, const RecordedMotion& motio
   samples.last = static_cast<Eigen::Index>(
       std::clamp(std::floor(place(to) + rounding), static_cast<double>(samples.first), most));
   const bool is_to_the_end = samples.last == motion.time.size() - 1;
-  // the last revolutions begin a sample early, where they close; that is not worth a fraction in words
+  // the last revolutions begin a sample early, where they close; that is not worth a fraction in
+  // words
   const bool are_last = !window.times && !window.from_revolution;
   const double begin = motion.time(samples.first) / motion.period;
   samples.text =

@@ -8,8 +8,8 @@ namespace whirl::inline io {
 
 class ResultWriter;
 
-/// A motion on an orbit, so that others begin there; of one that was found group /orbit: its multipliers,
-/// and the motion of all points, the latter not of the rotating frame.
+/// A motion on an orbit, so that others begin there; of one that was found group /orbit: its
+/// multipliers, and the motion of all points, the latter not of the rotating frame.
 void write_orbit(ResultWriter& file, const Model& model, const Scene& scene,
                  const FoundOrbit& orbit);
 void write_orbit(ResultWriter& file, const Model& model, const Scene& scene,

@@ -28,9 +28,9 @@ constexpr std::string_view html_mark = "<meta name=\"generator\" content=\"whirl
 /// The last entry of JSON.
 constexpr std::string_view json_mark_key = "program", json_mark = "whirl";
 
-/// Marks a PNG, PDF, GIF or OGV that another program made, in a way that leaves it valid: PNG, a text
-/// chunk "Software"; PDF, a comment before its last line; GIF, a comment block; OGV, the vendor of
-/// Theora's comment header. Any other file stays as it is.
+/// Marks a PNG, PDF, GIF or OGV that another program made, in a way that leaves it valid: PNG, a
+/// text chunk "Software"; PDF, a comment before its last line; GIF, a comment block; OGV, the
+/// vendor of Theora's comment header. Any other file stays as it is.
 /// @throws FileError  if it cannot be read or written
 void mark_as_own(const std::filesystem::path& file);
 

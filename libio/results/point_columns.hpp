@@ -1,5 +1,6 @@
 #pragma once
-/// Points of a study by their columns (libbase/structs/column.hpp): a row as numbers of datasets, and back.
+/// Points of a study by their columns (libbase/structs/column.hpp): a row as numbers of datasets,
+/// and back.
 
 #include <algorithm>
 #include <functional>

@@ -22,8 +22,8 @@ struct ResultEntry {
   std::string path;  ///< "/trajectory/x"; "/trajectory@period" is an attribute
   ObjectKind kind = ObjectKind::real;
   /// Its dimensions by name, "stations samples": those of one name have one size throughout a file.
-  /// "+" behind a name: at least one element. A number is a size. "point" stands for the dimensions of
-  /// a study, one per axis. Attributes have none.
+  /// "+" behind a name: at least one element. A number is a size. "point" stands for the dimensions
+  /// of a study, one per axis. Attributes have none.
   std::string sizes;
   ValidValues values{};
   bool is_optional = false;  ///< else it is there wherever the first entry of its set is
@@ -47,9 +47,10 @@ struct ResultSet {
 /// All that whirl reads from results.
 const std::vector<ResultSet>& result_schema();
 
-/// Checks all of a result that the schema knows: nothing that reads it afterwards meets another kind,
-/// other sizes, or codes of no meaning.
-/// @throws FileError  that names the dataset and what is wrong with it; for files that hold no model
+/// Checks all of a result that the schema knows: nothing that reads it afterwards meets another
+/// kind, other sizes, or codes of no meaning.
+/// @throws FileError  that names the dataset and what is wrong with it; for files that hold no
+/// model
 void check_result(const ResultReader& file);
 
 /// Opens a result and checks it.

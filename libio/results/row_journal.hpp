@@ -14,12 +14,13 @@ namespace whirl::inline io {
 /// Numbered rows of bytes, appended and never changed, each with its checksum.
 ///
 /// Killed at any moment, the process leaves all rows of earlier appends; of the last one those that
-/// reached the disk. What is behind a row that is not whole is dropped when the journal is opened to
-/// go on. A process that has it open keeps others out.
+/// reached the disk. What is behind a row that is not whole is dropped when the journal is opened
+/// to go on. A process that has it open keeps others out.
 ///
 ///     "whirlrow" format key crc32    then for each row:    number size crc32 bytes
 ///
-/// Numbers are those of the machine, of 32 bits, and 64 bits where they are a row's number or the key.
+/// Numbers are those of the machine, of 32 bits, and 64 bits where they are a row's number or the
+/// key.
 class RowJournal {
  public:
   struct Row {
@@ -73,7 +74,8 @@ void drop_rows(const std::filesystem::path& place);
 /// Where the journal of a result file is: beside it, "atlas.h5.rows".
 std::filesystem::path journal_of(const std::filesystem::path& file);
 
-/// Numbers of the rows of a journal, which another process may be writing; none if there is no journal.
+/// Numbers of the rows of a journal, which another process may be writing; none if there is no
+/// journal.
 std::vector<std::uint64_t> rows_in_journal(const std::filesystem::path& place);
 
 }  // namespace whirl::inline io

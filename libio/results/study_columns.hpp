@@ -1,8 +1,8 @@
 #pragma once
 /// Studies of many points: into a result file and back, and as what a file is checked against.
 ///
-/// A dataset has the shape of the study, then that of its column. Points that are not computed are NaN,
-/// or -1 in columns of integers; `done` tells them apart, and is left out once all are.
+/// A dataset has the shape of the study, then that of its column. Points that are not computed are
+/// NaN, or -1 in columns of integers; `done` tells them apart, and is left out once all are.
 
 #include <algorithm>
 #include <functional>

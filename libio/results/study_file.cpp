@@ -47,8 +47,8 @@ bool is_same_start(const ResultReader& file, const EarlierEnd& start) {
          then.revolution.value_or(0.0) == static_cast<double>(start.revolution);
 }
 
-/// What is said of a file that was computed with arithmetic that rounds otherwise; empty: it does not,
-/// or the file is of an early version, which did not tell.
+/// What is said of a file that was computed with arithmetic that rounds otherwise; empty: it does
+/// not, or the file is of an early version, which did not tell.
 std::string other_arithmetic(const ResultReader& file) {
   if (!file.has_attribute("/", "instruction_set")) return "";
   const std::string set = file.string_attribute("/", "instruction_set"), own = instruction_set();

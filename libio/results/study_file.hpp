@@ -1,5 +1,6 @@
 #pragma once
-/// The file of a study, which holds what is done at every moment, and from which the same line goes on.
+/// The file of a study, which holds what is done at every moment, and from which the same line goes
+/// on.
 
 #include <chrono>
 #include <functional>
@@ -54,8 +55,8 @@ class StudyFile {
   /// @throws FileError
   void take_rows(const RowJournal::ReadRow& f);
 
-  /// Keeps points that are new: beside the file while writing all of it takes long, and in it now and
-  /// then.
+  /// Keeps points that are new: beside the file while writing all of it takes long, and in it now
+  /// and then.
   /// @param pack  gives the bytes of a point
   void add(std::span<const std::size_t> points,
            const std::function<std::string(std::size_t point)>& pack);

@@ -26,7 +26,8 @@ Call without_part(Call call);
 /// Where a part's file is: "atlas.part3of40.h5" of "atlas.h5".
 std::filesystem::path part_place(const std::filesystem::path& whole, const Stripe& stripe);
 
-/// What files of parts leave open, a line each: "part 7/40 (all)", "part 12/40 (311 of 2500 points)".
+/// What files of parts leave open, a line each: "part 7/40 (all)", "part 12/40 (311 of 2500
+/// points)".
 /// @param files  results of one study
 /// @throws FileError  as ResultReader
 std::vector<std::string> missing_parts(const std::vector<std::filesystem::path>& files);

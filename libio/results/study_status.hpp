@@ -12,8 +12,8 @@ namespace whirl::inline io {
 class ResultReader;
 class ResultWriter;
 
-/// What a study's file tells of how it is computed, root attributes beside those of its origin. Times
-/// and machines are no part of a result: two files of one study differ in them.
+/// What a study's file tells of how it is computed, root attributes beside those of its origin.
+/// Times and machines are no part of a result: two files of one study differ in them.
 struct StudyWork {
   double seconds = 0.0;  ///< that all runs of it have computed so far [s]
   std::string host{};    ///< machine of the last one

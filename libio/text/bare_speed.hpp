@@ -24,8 +24,8 @@ struct BareSpeed {
 /// Whether a value, a range or a list of values is of bare numbers.
 bool is_bare(std::string_view text);
 
-/// What was given by an option, if it is a bare speed. Zero is the same in every unit, and what is no
-/// number is told by whoever reads it.
+/// What was given by an option, if it is a bare speed. Zero is the same in every unit, and what is
+/// no number is told by whoever reads it.
 std::optional<BareSpeed> bare_speed(const std::string& option, const std::string& value);
 
 /// Where a command line gives speeds; empty: not there.

@@ -83,7 +83,8 @@ struct NumberMarks {
 /// A number as parse_quantity reads it: decimal commas become points where commas do not delimit,
 /// "1.2D+6" becomes "1.2E+6". A unit behind the number stays.
 ///
-/// @return  or what is wrong: "410,000" is a decimal comma only where other numbers of the table have
+/// @return  or what is wrong: "410,000" is a decimal comma only where other numbers of the table
+/// have
 ///          commas that can be nothing else, and "410.000" is a doubtful point there
 Parsed<std::string> plain_number(std::string_view cell, const NumberMarks& marks);
 
@@ -112,8 +113,8 @@ NameAndUnit name_and_unit(
     const std::string& cell,
     const std::function<bool(const std::string&, const std::string&)>& is_known);
 
-/// Tells problems of one cause once: of those from `first` on that differ by nothing but their lines
-/// and numbers the first stays, and says how many more rows have it.
+/// Tells problems of one cause once: of those from `first` on that differ by nothing but their
+/// lines and numbers the first stays, and says how many more rows have it.
 void tell_once(std::vector<Problem>& problems, std::size_t first);
 
 }  // namespace whirl::inline io

@@ -14,8 +14,8 @@ namespace whirl::inline io {
 /// Else the first known word that it is a part of, as "diameter" of "outer_diameter".
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known);
 
-/// What to say of the first word that looks like an option ("--name", "--name=value") and is none of
-/// the known ones, with the one that was meant; nothing: there is no such word.
+/// What to say of the first word that looks like an option ("--name", "--name=value") and is none
+/// of the known ones, with the one that was meant; nothing: there is no such word.
 std::optional<std::string> unknown_option(std::span<const std::string> words,
                                           std::span<const std::string> known);
 

@@ -27,8 +27,8 @@
 
 namespace whirl::inline io {
 
-/// The whole numbers that an option takes. Both ends are said where it is declared, so that no number
-/// from outside costs more than somebody thought of.
+/// The whole numbers that an option takes. Both ends are said where it is declared, so that no
+/// number from outside costs more than somebody thought of.
 struct Whole {
   long least, most;
 

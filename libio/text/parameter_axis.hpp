@@ -12,8 +12,8 @@ namespace whirl::inline io {
 
 /// What a study varies in a model, and the values it takes.
 struct ParameterAxis {
-  /// Such as contact.seal.friction; several with commas, for one value at all; one with a minus before
-  /// it has the negative of that.
+  /// Such as contact.seal.friction; several with commas, for one value at all; one with a minus
+  /// before it has the negative of that.
   std::string path;
   std::string unit;            ///< SI unit of the values; empty: none was written
   std::vector<double> values;  ///< [SI]
@@ -48,8 +48,8 @@ struct ParameterAxis {
 /// "operation.speed [rad/s]"
 std::string label_of(const ParameterName& name);
 
-/// Reads what --over says: PATH=first:last:step (or PATH,PATH,...=first:last:step), PATH=first:last with a number of points, or
-/// PATH=value,value,...
+/// Reads what --over says: PATH=first:last:step (or PATH,PATH,...=first:last:step), PATH=first:last
+/// with a number of points, or PATH=value,value,...
 ///
 /// A unit at the end holds for all parts that have none of their own; bare numbers are SI.
 ///

@@ -9,8 +9,8 @@
 
 namespace whirl::inline io {
 
-/// Holds signals up as long as it lives, so that a file that is made is also in the list of what signals
-/// remove.
+/// Holds signals up as long as it lives, so that a file that is made is also in the list of what
+/// signals remove.
 class SignalsWait {
  public:
   SignalsWait();
@@ -38,7 +38,8 @@ class PassingFile {
   /// @param name  its last six letters are "XXXXXX", for which others are put
   /// @return 0 or the number of the error
   int make_folder(const std::string& name);
-  /// Takes over a file that this process alone has. Signals have to wait from before the file is made.
+  /// Takes over a file that this process alone has. Signals have to wait from before the file is
+  /// made.
   void adopt(const std::filesystem::path& name);
   /// Removes it.
   void remove();

@@ -14,8 +14,8 @@ std::string rate_text(long done, long total, double elapsed);
 /// "120 of 600, 2.5/s, 3:12 left".
 std::string progress_text(long done, long total, double elapsed);
 
-/// A line on standard error: on a terminal one that is rewritten every second, from the first one on;
-/// elsewhere, as in the log of a job, one after the other.
+/// A line on standard error: on a terminal one that is rewritten every second, from the first one
+/// on; elsewhere, as in the log of a job, one after the other.
 ///
 /// It is drawn by a thread of its own, so that it is there however long a step takes.
 class ProgressLine {

@@ -137,7 +137,8 @@ std::string table_text(const Cells& head, const std::vector<Cells>& rows, std::s
     widest->width = std::max(narrowest, widest->width - std::min(total() - limit, widest->width));
   }
   const std::size_t half = std::max<std::size_t>(limit / 2, gap + 1);
-  // a word may be longer than a folded column, but no column so wide that none fits beside the first
+  // a word may be longer than a folded column, but no column so wide that none fits beside the
+  // first
   for (std::size_t c = 0; c < all.size(); ++c) {
     const std::size_t room = limit == 0 ? std::string::npos
                              : c == 0   ? half - gap

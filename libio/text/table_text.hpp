@@ -9,8 +9,9 @@ namespace whirl::inline io {
 /// Lines of equal columns; a column is set right if all its cells begin with a digit, sign or dash,
 /// are empty or "·".
 ///
-/// Where that is wider than it may be, heads of numbers and the widest texts are folded, and columns
-/// that still find no place follow in further blocks below, the first column before them again.
+/// Where that is wider than it may be, heads of numbers and the widest texts are folded, and
+/// columns that still find no place follow in further blocks below, the first column before them
+/// again.
 ///
 /// @param limit  columns of the terminal; 0: none
 std::string table_text(const std::vector<std::string>& head,

@@ -9,8 +9,8 @@
 
 namespace whirl::inline io {
 
-/// Columns of the terminal: those of the environment's COLUMNS, else those of standard output. 0 where
-/// it is no terminal, as in a pipe: as wide as it takes.
+/// Columns of the terminal: those of the environment's COLUMNS, else those of standard output. 0
+/// where it is no terminal, as in a pipe: as wide as it takes.
 std::size_t terminal_columns();
 
 /// A text whose longer lines go on below, broken at blanks and indented as they are.
@@ -20,22 +20,23 @@ std::string folded(const std::string& text, std::size_t columns);
 /// Parts of a line at blanks, none wider than so many columns unless it is one word.
 std::vector<std::string> folded_words(const std::string& line, std::size_t columns);
 
-/// Whether a character of UTF-8 steers a terminal instead of being shown: a control character but for
-/// the ends of lines and tabs, or one that turns the direction of what follows.
+/// Whether a character of UTF-8 steers a terminal instead of being shown: a control character but
+/// for the ends of lines and tabs, or one that turns the direction of what follows.
 bool steers_terminal(std::string_view character);
 
-/// A text that only shows something: what steers a terminal, and bytes that are no UTF-8, become U+FFFD.
+/// A text that only shows something: what steers a terminal, and bytes that are no UTF-8, become
+/// U+FFFD.
 std::string shown_text(std::string_view text);
 
 /// A name or title that may be a stranger's as part of a line: ends of lines become U+FFFD, too.
 std::string shown_line(std::string_view text);
 
-/// Prints a text as shown_text has it. All that a program tells people goes this way, since names, titles
-/// and files of strangers stand in it.
+/// Prints a text as shown_text has it. All that a program tells people goes this way, since names,
+/// titles and files of strangers stand in it.
 void say(std::FILE* to, std::string_view text);
 
-/// Takes the places of standard streams that are closed: or else a result file would get the number of
-/// one, and what is printed there would end in it. To what is not there nothing can be printed.
+/// Takes the places of standard streams that are closed: or else a result file would get the number
+/// of one, and what is printed there would end in it. To what is not there nothing can be printed.
 void fill_standard_streams();
 
 }  // namespace whirl::inline io

@@ -7,7 +7,8 @@
 
 namespace whirl::inline io {
 
-/// How many bytes from the start of a text are one character that XML 1.0 and JSON can hold; 0: none.
+/// How many bytes from the start of a text are one character that XML 1.0 and JSON can hold; 0:
+/// none.
 ///
 /// Left out are controls, surrogates, U+FFFE, U+FFFF, and what is not UTF-8 [XML 1.0, 2.2].
 inline std::size_t character_length(std::string_view text) {

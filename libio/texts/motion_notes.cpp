@@ -55,8 +55,8 @@ void note_friction(Notes& notes, const std::string& place, const Model& model,
             : ""));
 }
 
-/// The largest distance of any point from where it is without motion, if it is above a limit [m]; else
-/// something below that.
+/// The largest distance of any point from where it is without motion, if it is above a limit [m];
+/// else something below that.
 double farthest_beyond(double limit, const Scene& scene, const Mat& coordinates) {
   const Mat map = scene.displacement_map();
   const DofMap& dofs = scene.reduced.dofs;

@@ -21,8 +21,8 @@ std::vector<std::string> motion_notes(const Model& model, const Run& run);
 
 /// Revolutions of a motion that notes are taken from where it is not recorded.
 inline constexpr long noted_revolutions = 8;
-/// Of the motion that goes on from a state, over so many revolutions. States of the contacts that are left
-/// out are those of a motion of whose past nothing is known.
+/// Of the motion that goes on from a state, over so many revolutions. States of the contacts that
+/// are left out are those of a motion of whose past nothing is known.
 std::vector<std::string> motion_notes(const Model& model, const Scene& scene, MotionState start,
                                       long revolutions);
 
@@ -33,9 +33,11 @@ std::vector<std::string> motion_notes(const std::vector<FittedMotion>& found);
 /// Of the bouncing motions that were found, each over its period.
 std::vector<std::string> motion_notes(const Model& model, const ResonanceStudy& study);
 
-/// Of many motions of which the forces at the contacts alone are known: depths are those of the law.
+/// Of many motions of which the forces at the contacts alone are known: depths are those of the
+/// law.
 /// @param model_of  the model of a motion
-/// @param place_of  where a motion is among them, such as "operation.speed = 32 rad/s"; may be empty
+/// @param place_of  where a motion is among them, such as "operation.speed = 32 rad/s"; may be
+/// empty
 std::vector<std::string> touch_notes(const HardestTouches& hardest,
                                      const std::function<Model(std::size_t)>& model_of,
                                      const std::function<std::string(std::size_t)>& place_of);

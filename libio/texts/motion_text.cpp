@@ -23,8 +23,8 @@ std::string peaks_text(const std::vector<FrequencyPeak>& peaks) {
   return text.empty() ? "-" : text;
 }
 
-/// What stands still beside the rotor, such as the sag: seen from the rotor it turns backward as fast
-/// as that.
+/// What stands still beside the rotor, such as the sag: seen from the rotor it turns backward as
+/// fast as that.
 /// @param Omega  speed of the rotor [rad/s]
 bool stands_still(const FrequencyPeak& peak, double Omega) {
   return Omega != 0.0 && peak.frequency == -Omega;

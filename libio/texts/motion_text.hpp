@@ -1,5 +1,6 @@
 #pragma once
-/// Motions for people: how the rotor was reduced, what was integrated, what contacts and stations do.
+/// Motions for people: how the rotor was reduced, what was integrated, what contacts and stations
+/// do.
 
 #include <string>
 #include <vector>

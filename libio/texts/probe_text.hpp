@@ -25,7 +25,8 @@ std::string force_text(const Forced& forced) {
 /// Peaks along every probe, peak to peak; empty without probes.
 std::string text_of(const std::vector<ProbeResponse>& probes);
 
-/// Readings of forces of other frequencies; a dash where they are not bounded; empty without probes.
+/// Readings of forces of other frequencies; a dash where they are not bounded; empty without
+/// probes.
 /// @param speeds  of the readings [rad/s]
 std::string text_of(const std::vector<ForcedReading>& readings, const std::vector<double>& speeds);
 

@@ -86,7 +86,8 @@ std::string value_text(const T& value, const NumberStyle& style, int offset = 0)
 
 }  // namespace texts
 
-/// A column of a table, of rows of a type: one of their columns, their numbers, or a text of its own.
+/// A column of a table, of rows of a type: one of their columns, their numbers, or a text of its
+/// own.
 template <class Row>
 struct TableColumn {
   std::string heading;

@@ -9,8 +9,8 @@
 
 namespace whirl::inline io {
 
-/// A note where a mode grows by itself at one of some speeds; none where the rotor is stable at all of
-/// them, or has no modes there, as on oil films without speed.
+/// A note where a mode grows by itself at one of some speeds; none where the rotor is stable at all
+/// of them, or has no modes there, as on oil films without speed.
 /// @param speeds  that are looked at [rad/s]
 std::vector<std::string> unstable_notes(const Assembler& assembler, std::vector<double> speeds);
 

@@ -6,7 +6,8 @@
 
 namespace whirl::inline io {
 
-/// Displacements of all named places, loads of the bearings, and where the shaft bends and sags most.
+/// Displacements of all named places, loads of the bearings, and where the shaft bends and sags
+/// most.
 std::string text_of(const StaticStudy& study);
 
 }  // namespace whirl::inline io

@@ -63,8 +63,8 @@ std::string exponent_text(const Stretch& s) {
   return s.motion ? fmt::format("{:+.4f}", s.largest_exponent) : "-";
 }
 
-/// Where contacts begin and end to touch, a line each: "contact ring touches from 131.5 rad/s (not yet at
-/// 131) to 139, all the time".
+/// Where contacts begin and end to touch, a line each: "contact ring touches from 131.5 rad/s (not
+/// yet at 131) to 139, all the time".
 std::string touch_text(const SweepWay& way, const ParameterAxis& axis) {
   constexpr std::size_t most = 12;
   const std::vector<TouchRange> ranges = touch_ranges(way);

@@ -18,8 +18,8 @@ namespace whirl::inline cli {
 int run_command(const Verb& verb, const std::vector<std::string>& words,
                 const StoredModel& stored = {}, const Ranks* ranks = nullptr);
 
-/// Shares the work of a verb whose leader runs these words, and prints nothing. It returns where the verb
-/// shares no work, or fails: the leader is told why, if it does not know.
+/// Shares the work of a verb whose leader runs these words, and prints nothing. It returns where
+/// the verb shares no work, or fails: the leader is told why, if it does not know.
 /// @throws WorkIsDone  once the leader has ended
 void serve_command(const Verb& verb, const std::vector<std::string>& words, const Ranks& ranks);
 

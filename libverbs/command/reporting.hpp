@@ -15,12 +15,14 @@ namespace whirl::inline cli {
 
 /// A report with the entries that all verbs have (model, version).
 Report begin_report(const Invocation& call);
-/// The same of verbs that take a model, whose speed it says (speed_rpm), with the entries of a result.
+/// The same of verbs that take a model, whose speed it says (speed_rpm), with the entries of a
+/// result.
 Report begin_report(const Invocation& call, const Model& model, const Record& result = {});
 
-/// Notes what is to be known of a model whose motions are computed: bearing tables that are held constant at
-/// its speed, or at one that --over goes through, those of whose whirl frequencies a motion takes one, a speed
-/// that the machine is not run at, and in what the model of --from differs.
+/// Notes what is to be known of a model whose motions are computed: bearing tables that are held
+/// constant at its speed, or at one that --over goes through, those of whose whirl frequencies a
+/// motion takes one, a speed that the machine is not run at, and in what the model of --from
+/// differs.
 void note_model(const Invocation& call, const Model& model, Report& report);
 
 /// Writes the report's notes into a result file, where there are any.

@@ -13,7 +13,8 @@ namespace whirl::inline cli {
 namespace {
 
 struct BenchVerbOptions {
-  Option<long> revolutions{"revolutions", "N", "revolutions that are measured", 20, Whole{1, 100'000}};
+  Option<long> revolutions{"revolutions", "N", "revolutions that are measured", 20,
+                           Whole{1, 100'000}};
   Option<long> discard = discard_option();
   Option<std::string> methods{
       "methods", "M,...",

@@ -21,8 +21,8 @@ namespace {
 
 using clock = std::chrono::steady_clock;
 
-/// What Python wants of a verb that runs without its lock: to be told how far it is, and to stop it.
-/// Python is asked in the calling thread only, and not more often than people notice.
+/// What Python wants of a verb that runs without its lock: to be told how far it is, and to stop
+/// it. Python is asked in the calling thread only, and not more often than people notice.
 class Watch {
  public:
   struct Interrupted {};  ///< no std::exception, which somebody might take for a failure

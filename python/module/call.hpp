@@ -31,9 +31,10 @@ struct Subject {
 /// All verbs that take a model, or a model or a result, and run; with their options.
 pybind11::list verb_table();
 
-/// Runs a verb as the command line does, with the same options. Python's other threads run meanwhile;
-/// signals are looked at now and then, and an exception of their handlers, or of `progress`, stops it:
-/// it then leaves, with what was found until then, if that is something, as its attribute `found`.
+/// Runs a verb as the command line does, with the same options. Python's other threads run
+/// meanwhile; signals are looked at now and then, and an exception of their handlers, or of
+/// `progress`, stops it: it then leaves, with what was found until then, if that is something, as
+/// its attribute `found`.
 ///
 /// @param given     texts of options by their names, as the command line has them
 /// @param progress  called with (what, done, total) now and then, or None

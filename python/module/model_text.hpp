@@ -20,7 +20,8 @@ class ModelText {
   /// @throws ModelError  with all problems
   ModelText(std::string file, std::string text, std::vector<std::string> sets, bool stored = false);
 
-  /// A copy in which more is set: "PATH=VALUE" lines as of --set, which hold together or not at all.
+  /// A copy in which more is set: "PATH=VALUE" lines as of --set, which hold together or not at
+  /// all.
   ModelText with(const std::vector<std::string>& sets) const;
 
   /// The value at a path, as it is written: text, number, truth, list or dict.
@@ -32,8 +33,8 @@ class ModelText {
   const std::vector<std::string>& sets() const { return sets_; }
   const std::shared_ptr<const Model>& made() const { return made_; }
 
-  /// M, C, G, K at its speed as (data, row numbers, column starts) each, names of the coordinates and
-  /// where they are.
+  /// M, C, G, K at its speed as (data, row numbers, column starts) each, names of the coordinates
+  /// and where they are.
   pybind11::dict matrices() const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// The datasets and attributes of a result for numpy: of one in memory, or of a file, each read when
-/// it is asked for.
+/// The datasets and attributes of a result for numpy: of one in memory, or of a file, each read
+/// when it is asked for.
 
 #include <pybind11/numpy.h>
 
@@ -23,8 +23,8 @@ class Store {
   std::vector<std::string> paths() const;
   /// (unit, meaning, paths of axes, shape, names of the dimensions) of a dataset.
   pybind11::tuple info(const std::string& path) const;
-  /// Numbers as a read-only array, which looks at this result's memory and keeps it alive; texts as a
-  /// list.
+  /// Numbers as a read-only array, which looks at this result's memory and keeps it alive; texts as
+  /// a list.
   pybind11::object values(const std::string& path);
   /// (object, name, value) of all.
   pybind11::list attributes() const;

@@ -127,8 +127,9 @@ TEST(Documents, LinkToFilesAndHeadingsThatAreThere) {
   EXPECT_GT(found, 100);
 }
 
-// Tables of docs/validation.md head what is printed in a source as `printed`, what a program of ours finds as
-// `own program`, and what is known as `closed form`: a column headed `paper` held numbers of all three.
+// Tables of docs/validation.md head what is printed in a source as `printed`, what a program of
+// ours finds as `own program`, and what is known as `closed form`: a column headed `paper` held
+// numbers of all three.
 TEST(Documents, ValidationHeadsItsReferencesByTheirKind) {
   std::string before;
   int tables = 0;

@@ -125,8 +125,8 @@ TEST(Bearings, NoCodeAsksForAKind) {
   }
 }
 
-// A contact geometry: likewise. Equations, events, orbits, model files and pictures ask it, and none
-// knows it by name.
+// A contact geometry: likewise. Equations, events, orbits, model files and pictures ask it, and
+// none knows it by name.
 TEST(Geometries, AStopIsAFileAndTwoLinesOfTheList) {
   const std::string named = "\\bStop\\b|geometry/stop";
   std::map<std::string, int> outside = places_in("libcontact", named);

@@ -118,7 +118,8 @@ TEST(Architecture, ThePythonPackageNeedsNoProgram) {
   }
 }
 
-// What a program tells people goes through say(), which lets nothing through that steers a terminal.
+// What a program tells people goes through say(), which lets nothing through that steers a
+// terminal.
 TEST(Architecture, OneFunctionPrints) {
   static const std::regex pattern(R"((fmt::print|f?puts|printf|fwrite)\(|std::c(out|err)\b)");
   for (const char* folder : {"libio", "libverbs", "apps"}) {
@@ -160,7 +161,8 @@ TEST(Architecture, EachLibraryHasOneHome) {
   }
 }
 
-/// Libraries from the ground up with their namespaces, which are inline: `whirl::Model` is a name, too.
+/// Libraries from the ground up with their namespaces, which are inline: `whirl::Model` is a name,
+/// too.
 const std::vector<std::pair<std::string, std::string>> namespaces{
     {"libbase", "base"}, {"libfe", "fe"},     {"libcontact", "contact"},
     {"libdyn", "dyn"},   {"libdata", "data"}, {"libio", "io"},
@@ -180,7 +182,8 @@ TEST(Architecture, ALibraryDeclaresInItsNamespaceOrInOneBelow) {
   EXPECT_GT(found, 400u);
 }
 
-// What stands where in a state, StateLayout says. Orders of orbits and halves of periods are others' numbers.
+// What stands where in a state, StateLayout says. Orders of orbits and halves of periods are
+// others' numbers.
 TEST(Architecture, OneFileKnowsTheOrderOfAState) {
   const std::regex order(
       R"(\b2 \* n_?\b|\b2 \* [a-z_.>-]*coordinates\(\)|\by(_\.data\(\))? \+ n_?\b|\by\.(head|tail)\(|\b(head|tail|topRows|bottomRows)\([a-z_.]*coordinates\(\)\))");
@@ -198,8 +201,8 @@ TEST(Architecture, OneFileKnowsTheOrderOfAState) {
   EXPECT_FALSE(lines_in("tests", order).empty());  // the pattern finds what it looks for
 }
 
-// They serve programs of any kind: what is wrong they say in words of the field, and the program adds
-// which of its options does it (OptionError).
+// They serve programs of any kind: what is wrong they say in words of the field, and the program
+// adds which of its options does it (OptionError).
 TEST(Architecture, LibrariesThatComputeDoNotSpeakCommandLine) {
   const std::regex option(R"("[^"]*--[a-z])");
   const std::regex verb(

@@ -37,7 +37,8 @@ TEST(Dogleg, FindsTheEndOfABentValley) {
   EXPECT_LT(found.cost, 1e-18);
 }
 
-// Within x1 <= 1/2 the least is on that bound, where x2 = x1^2: (1/2, 1/4), half the square of 1/2 left.
+// Within x1 <= 1/2 the least is on that bound, where x2 = x1^2: (1/2, 1/4), half the square of 1/2
+// left.
 TEST(Dogleg, EndsOnABoundThatTheLeastIsBeyond) {
   LeastSquares bounded = valley();
   bounded.lower = Vec{{-2.0, -HUGE_VAL}};
@@ -58,8 +59,8 @@ TEST(Dogleg, LeavesABoundThatItBeginsAt) {
   EXPECT_NEAR(found.x(0), 1.0, 1e-7);
 }
 
-// A straight line through points: one Gauss-Newton step, the normal equations' solution. The third unknown is in
-// no equation and stays.
+// A straight line through points: one Gauss-Newton step, the normal equations' solution. The third
+// unknown is in no equation and stays.
 TEST(Dogleg, SolvesLinearEquationsInAStep) {
   const Mat A{{1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {1.0, 2.0, 0.0}};
   const Vec b{{1.0, 2.0, 4.0}};

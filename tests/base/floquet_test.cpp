@@ -9,8 +9,9 @@
 
 namespace whirl::floquet_test {
 
-// A = B_m ... B_1 with B_i = Q_(i+1) diag(1000, -0.5, 0.001) Q_i^T: multipliers 1000^m, (-0.5)^m and
-// 0.001^m, which stand 36 decades apart for m = 6. The product itself would keep the first only.
+// A = B_m ... B_1 with B_i = Q_(i+1) diag(1000, -0.5, 0.001) Q_i^T: multipliers 1000^m, (-0.5)^m
+// and 0.001^m, which stand 36 decades apart for m = 6. The product itself would keep the first
+// only.
 TEST(FloquetMultipliers, SmallMultipliersDoNotDrownInLargeOnes) {
   const auto rotation = [](int i) {
     const double a = 0.7 * (i % 6), b = 0.4 * (i % 6);

@@ -32,16 +32,16 @@ TEST(PieceSizes, FewPointsGoToAllThreads) {
   }
 }
 
-/// How long a thread takes for a piece in lanes, each of which takes the next point as soon as it is free:
-/// to the end of the last one, as a step of one lane takes as long as one of all.
+/// How long a thread takes for a piece in lanes, each of which takes the next point as soon as it
+/// is free: to the end of the last one, as a step of one lane takes as long as one of all.
 double in_lanes(const std::vector<double>& costs) {
   std::vector<double> free(std::min(lanes, costs.size()), 0.0);
   for (const double cost : costs) *std::min_element(free.begin(), free.end()) += cost;
   return *std::max_element(free.begin(), free.end());
 }
 
-/// How long threads take for points, each of which takes the next piece as soon as it is free, of the
-/// time that full lanes would take.
+/// How long threads take for points, each of which takes the next piece as soon as it is free, of
+/// the time that full lanes would take.
 /// @param next   size of the next piece
 /// @param learn  told the size of a piece and what it took
 template <class Next, class Learn, class Cost>
@@ -60,9 +60,9 @@ double simulate(std::size_t points, std::size_t count, const Next& next, const L
   return *std::max_element(free.begin(), free.end()) * lanes * static_cast<double>(count) / all;
 }
 
-// Studies of 200 to 4000 points on two to eight threads, of which a quarter and at the end three quarters
-// are chaotic and thirty times as dear: they take less time than with pieces of any one size, small ones,
-// whose lanes stand empty, and large ones, whose last one is waited for.
+// Studies of 200 to 4000 points on two to eight threads, of which a quarter and at the end three
+// quarters are chaotic and thirty times as dear: they take less time than with pieces of any one
+// size, small ones, whose lanes stand empty, and large ones, whose last one is waited for.
 TEST(PieceSizes, DearPointsAtTheEndKeepNoThreadWaiting) {
   const auto takes = [](const auto& next_of) {
     double sum = 0.0;

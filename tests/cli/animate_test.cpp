@@ -21,8 +21,8 @@ class Animate : public Program {
 TEST_F(Animate, DrawsVideosAndPicturesWithoutAScreen) {
   if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
   const Outcome video = without_display("animate " + disks +
-                                       " --out m.ogv --mode 2 --frames 6 "
-                                       "--size 320x240");
+                                        " --out m.ogv --mode 2 --frames 6 "
+                                        "--size 320x240");
   ASSERT_EQ(video.status, 0) << video.err;
   EXPECT_TRUE(has(video.out, "m.ogv: 6 frames, mode 2 at ")) << video.out;
   EXPECT_EQ(content(folder / "m.ogv").substr(0, 4), "OggS");
@@ -48,8 +48,8 @@ TEST_F(Animate, DrawsVideosAndPicturesWithoutAScreen) {
 // 1 / rate.
 TEST_F(Animate, DrawsGifs) {
   if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
-  const Outcome video = without_display("animate " + disks +
-                                       " --out m.gif --mode 1 --frames 5 --size 320x240 --rate 20");
+  const Outcome video = without_display(
+      "animate " + disks + " --out m.gif --mode 1 --frames 5 --size 320x240 --rate 20");
   if (video.status == 2 && has(video.err, "neither is there")) {
     GTEST_SKIP() << "needs ffmpeg or imagemagick";
   }
@@ -86,7 +86,8 @@ TEST_F(Animate, DrawsGifs) {
   EXPECT_TRUE(loops);
 }
 
-// Where there is nothing to draw on it is said, also where VTK ends the process; nothing is written.
+// Where there is nothing to draw on it is said, also where VTK ends the process; nothing is
+// written.
 TEST_F(Animate, TellsWhatIsMissing) {
   const Outcome no_xvfb = without_display("animate " + disks + " --out m.ogv", "PATH=/nowhere");
   EXPECT_EQ(no_xvfb.status, 2);

@@ -210,10 +210,9 @@ TEST_F(BadCall, PlacesThatCannotBeWrittenAreSaidBeforeTheWork) {
 // A slip of the pen must not cost the model: results take the place of results only.
 TEST_F(BadCall, ResultsReplaceNothingButResults) {
   write("table", "speed, kxx, kyy\n0, 1, 1\n");
-  EXPECT_EQ(
-      problem_of_line({"modes", "rotor.toml", "--out", "table"}),
-      "whirl: cannot write table: this file is no result of whirl and would be lost; take "
-      "another name, or --force to replace it\n");
+  EXPECT_EQ(problem_of_line({"modes", "rotor.toml", "--out", "table"}),
+            "whirl: cannot write table: this file is no result of whirl and would be lost; take "
+            "another name, or --force to replace it\n");
   EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--out", "rotor.toml"}), "is the input"));
   for (const char* name : {"rotor.toml", "./rotor.toml"}) {
     EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--json", name}),
@@ -234,8 +233,8 @@ TEST_F(BadCall, WhatCannotBePrintedIsAnError) {
   EXPECT_EQ(outcome.err, "whirl: cannot write to standard output\n");
 }
 
-// A result file must not get the number of a stream that is closed, and the end is an exit status: an
-// error that cannot be printed ended the process by a signal.
+// A result file must not get the number of a stream that is closed, and the end is an exit status:
+// an error that cannot be printed ended the process by a signal.
 TEST_F(BadCall, ClosedStreamsEndNoProcessAndSpoilNoFile) {
   const std::string program = WHIRL_PROGRAM;
   const auto status = [&](const std::string& line) {

@@ -14,9 +14,9 @@ class Branches : public Program {
   const std::string two_disk = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
 };
 
-// The 3:1 bouncing motion of the two-disk rotor at 4430 rpm lives on a closed branch between two folds.
-// Its first forward and first backward mode are in resonance somewhat below the lower one, as the
-// contact stiffens the rotor.
+// The 3:1 bouncing motion of the two-disk rotor at 4430 rpm lives on a closed branch between two
+// folds. Its first forward and first backward mode are in resonance somewhat below the lower one,
+// as the contact stiffens the rotor.
 TEST_F(Branches, OfBouncingBeginAboveTheInternalResonance) {
   const json branch = result({"continue", two_disk, "--frame", "rotating", "--over",
                               "operation.speed=3000:7000:20rpm", "--at", "4430rpm"});
@@ -62,8 +62,8 @@ TEST_F(Branches, OfBouncingBeginAboveTheInternalResonance) {
   EXPECT_LE(orbit["steps"], 2);
 }
 
-// A point of a branch in the rotating frame is an orbit there, from which another branch begins: along the
-// speed first, then along the stiffness of the ring.
+// A point of a branch in the rotating frame is an orbit there, from which another branch begins:
+// along the speed first, then along the stiffness of the ring.
 TEST_F(Branches, OfTheRotatingFrameAreChainedFromTheirPoints) {
   const json branch = result({"continue", two_disk, "--frame", "rotating", "--over",
                               "operation.speed=3000:7000:20rpm", "--at", "4430rpm", "--most", "8",
@@ -96,7 +96,8 @@ TEST_F(Branches, OfTheRotatingFrameTakeNeitherPeriodsNorSwitches) {
   EXPECT_TRUE(has(nothing.err, "contacts to bounce in")) << nothing.err;
 }
 
-// Stable points of a closed branch hold in a simulation seen from the rotor, unstable ones are left.
+// Stable points of a closed branch hold in a simulation seen from the rotor, unstable ones are
+// left.
 TEST_F(Branches, OfTheRotatingFrameAreWhatSimulationsSay) {
   result({"continue", two_disk, "--frame", "rotating", "--over", "operation.speed=3000:7000:20rpm",
           "--at", "4430rpm", "--out", "branch.h5"});
@@ -124,8 +125,8 @@ TEST_F(Branches, OfTheRotatingFrameAreWhatSimulationsSay) {
   EXPECT_GT(std::abs(after("4540rpm")["period_revs"].get<double>() - 2.157), 0.01);
 }
 
-// The period doubling at friction 0.128110 (138.4 rad/s, 64 MN/m) in the plane of friction and contact
-// stiffness: the border goes through it, and killed and begun again it is the same.
+// The period doubling at friction 0.128110 (138.4 rad/s, 64 MN/m) in the plane of friction and
+// contact stiffness: the border goes through it, and killed and begun again it is the same.
 TEST_F(Branches, HaveBordersInThePlaneOfTwoParameters) {
   const std::vector<std::string> line{"continue", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
                                       "--speed",  "138.4rad/s",
@@ -141,8 +142,8 @@ TEST_F(Branches, HaveBordersInThePlaneOfTwoParameters) {
     EXPECT_NEAR(border["points"][0][1], 64e6, 1.0);
     EXPECT_GT(border["points"].size(), 3u);
   }
-  // another point of it is where a branch at that stiffness doubles; not the last one, which is so near
-  // to the end of the range that the transient at that end hardly settles
+  // another point of it is where a branch at that stiffness doubles; not the last one, which is so
+  // near to the end of the range that the transient at that end hardly settles
   const json& points = r["borders"][0]["points"];
   const json& point = points[points.size() - 2];
   const json again =
@@ -179,7 +180,8 @@ TEST_F(Branches, AreCirclesSeenFromOutside) {
   EXPECT_TRUE(has(settled.err, "settled on a periodic orbit")) << settled.err;
 }
 
-// At 138.4 rad/s, 64 MN/m and friction 0.11 five orbits of one revolution coexist, all of them unstable.
+// At 138.4 rad/s, 64 MN/m and friction 0.11 five orbits of one revolution coexist, all of them
+// unstable.
 TEST_F(Branches, BeginAtOrbitsOfASearch) {
   const json r = result({"orbit", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed",
                          "138.4rad/s", "--set", "contact.ring.stiffness=64e6", "--set",

@@ -313,8 +313,8 @@ TEST_F(Interrupt, SavesWhatWasComputed) {
 
 TEST_F(Interrupt, BeforeTheFirstRecordedRevolution) {
   double seconds = 0.0;
-  const Outcome outcome = stopped({"identify", "rub.toml", "--discard", "10000000",
-                                   "--revolutions", "4", "--out", "run.h5", "--json", "-"},
+  const Outcome outcome = stopped({"identify", "rub.toml", "--discard", "10000000", "--revolutions",
+                                   "4", "--out", "run.h5", "--json", "-"},
                                   seconds);
   EXPECT_EQ(outcome.status, 130);
   const json r = outcome.tree();
@@ -416,7 +416,8 @@ TEST_F(OrbitVerb, FindsTheOrbitAndItsMultipliers) {
   EXPECT_EQ(file.shape("/orbit/displacement")[1], 1);
 }
 
-// At 138.4 rad/s, 64 MN/m and friction 0.12 the orbit of period 1 is unstable beside that of period 2.
+// At 138.4 rad/s, 64 MN/m and friction 0.12 the orbit of period 1 is unstable beside that of
+// period 2.
 TEST_F(OrbitVerb, FindsAnUnstableOrbit) {
   const std::vector<std::string> point{"orbit",   WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
                                        "--speed", "138.4rad/s",
@@ -436,7 +437,8 @@ TEST_F(OrbitVerb, FindsAnUnstableOrbit) {
   EXPECT_NEAR(saddle["floquet"][0][1], 0.0, 1e-12);
 }
 
-// The two-disk rotor bounces quasi-periodically; seen from itself it repeats, and does so from there.
+// The two-disk rotor bounces quasi-periodically; seen from itself it repeats, and does so from
+// there.
 TEST_F(OrbitVerb, FindsAnOrbitInTheRotatingFrame) {
   const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   const json r = result({"orbit", model, "--frame", "rotating", "--out", "orbit.h5"});
@@ -450,8 +452,8 @@ TEST_F(OrbitVerb, FindsAnOrbitInTheRotatingFrame) {
   EXPECT_LE(again["steps"], 2);
 }
 
-// The same orbit as a Fourier series: stable, five impacts, near to that of shooting by as much as it
-// says, and as a start for shooting.
+// The same orbit as a Fourier series: stable, five impacts, near to that of shooting by as much as
+// it says, and as a start for shooting.
 TEST_F(OrbitVerb, FindsTheOrbitByHarmonicBalance) {
   const std::string model = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
   const json r = result({"orbit", model, "--discard", "50", "--method", "harmonic-balance",

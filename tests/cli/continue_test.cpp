@@ -12,8 +12,8 @@ namespace continue_test {
 class ContinueStudy : public Studies {};
 
 // At 138.4 rad/s and 64 MN/m, from friction 0.15 down: period 1, 2, 4, as simulations say at 0.15,
-// 0.12 and 0.11, and the orbit of period 1 goes on beside them, unstable. Each point is an orbit that
-// Newton's method finds at once, with the multipliers of the point.
+// 0.12 and 0.11, and the orbit of period 1 goes on beside them, unstable. Each point is an orbit
+// that Newton's method finds at once, with the multipliers of the point.
 TEST_F(ContinueStudy, ContinueFollowsPeriodDoublings) {
   const json r =
       result({"continue", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
@@ -90,8 +90,8 @@ TEST_F(ContinueStudy, ContinueGoesOnAfterKills) {
       2, 5);
 }
 
-// The same branch as Fourier series: the doubling within what 40 harmonics leave, the state at phase 0
-// near that of shooting, and the same numbers again after kills.
+// The same branch as Fourier series: the doubling within what 40 harmonics leave, the state at
+// phase 0 near that of shooting, and the same numbers again after kills.
 TEST_F(ContinueStudy, ContinueFollowsSeries) {
   const std::vector<std::string> branch{"continue", stator,
                                         "--speed",  "138.4rad/s",
@@ -176,8 +176,9 @@ TEST_F(ContinueStudy, ContinueSaysWhatIsWrong) {
                   "goes with --method shooting only"));
 }
 
-// A rotor without gravity goes round a circle of radius e w^2 / |k - m w^2 + i c w|, which touches its stator
-// all around at once where that is the clearance: the grazing is found there, and crossed both ways.
+// A rotor without gravity goes round a circle of radius e w^2 / |k - m w^2 + i c w|, which touches
+// its stator all around at once where that is the clearance: the grazing is found there, and
+// crossed both ways.
 TEST_F(ContinueStudy, CrossesTheOnsetOfRubOfACircle) {
   write("circle.toml", R"(format = 1
 [operation]

@@ -1,6 +1,6 @@
-// What earlier versions wrote: it opens, and a study that they began is not gone on with. The files are a
-// map of two by two points as 0.1.0 left it, and a record of one probe that 0.2.0 identified, but for most of its
-// samples, from before it told positions of probes.
+// What earlier versions wrote: it opens, and a study that they began is not gone on with. The files
+// are a map of two by two points as 0.1.0 left it, and a record of one probe that 0.2.0 identified,
+// but for most of its samples, from before it told positions of probes.
 
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"

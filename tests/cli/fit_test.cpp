@@ -60,7 +60,8 @@ class FitVerb : public Program {
   const std::string truth = "contact.ring.friction=0.05";
 };
 
-// The start of friction is in the middle of its bounds, as the model has none; noise is what is left.
+// The start of friction is in the middle of its bounds, as the model has none; noise is what is
+// left.
 TEST_F(FitVerb, FindsWhatTheRecordWasMadeWith) {
   const json tree = found({"--measured", "run.csv", "--free",
                            "contact.ring.stiffness,contact.ring.friction=0:0.3", "--set",
@@ -93,7 +94,8 @@ TEST_F(FitVerb, PrintsLinesThatGoOnWithTheValues) {
   EXPECT_TRUE(has(ran.out, "95 % interval"));
 }
 
-// Twice the true noise leaves too little, a tenth of it too much: that is no fit, and the status says so.
+// Twice the true noise leaves too little, a tenth of it too much: that is no fit, and the status
+// says so.
 TEST_F(FitVerb, SaysWhenMoreIsLeftThanTheNoise) {
   const Outcome ran = fit({"--measured", "run.csv", "--free", "contact.ring.friction=0:0.3",
                            "--noise", "0.1%", "--json", "-"});
@@ -133,8 +135,8 @@ TEST_F(FitVerb, FitsSeveralRecordsAtOnce) {
   EXPECT_EQ(whirl({"plot", "both.h5", "fit", "--which", "readings", "--out", "s.svg"}).status, 0);
 }
 
-// A rotor that seems to whirl backward with its own speed: no motion of the model does, and what was found
-// is not called a fit.
+// A rotor that seems to whirl backward with its own speed: no motion of the model does, and what
+// was found is not called a fit.
 TEST_F(FitVerb, DoesNotCallAFitWhatExplainsLittle) {
   std::string text = "time [s],a [um],b [um],key\n";
   const int samples = 32;  // of a revolution
@@ -158,8 +160,8 @@ TEST_F(FitVerb, DoesNotCallAFitWhatExplainsLittle) {
   EXPECT_TRUE(has_note(tree, "so little is explained: are probes swapped")) << tree.at("notes");
 }
 
-// A thirtieth of the samples is missing, a stretch of each channel: what stands there for spectra is no
-// reading, and the values are those that the rest tells.
+// A thirtieth of the samples is missing, a stretch of each channel: what stands there for spectra
+// is no reading, and the values are those that the rest tells.
 TEST_F(FitVerb, LeavesMissingSamplesOut) {
   std::istringstream whole(content(folder / "run.csv"));
   std::string text;

@@ -174,8 +174,8 @@ TEST_F(ForceVerbs, IdentifyNamesLinesOfForces) {
   }
 }
 
-// Along x cos a + y sin a a force along x is read as its cosine, one that turns backward as large as it
-// is, a ahead.
+// Along x cos a + y sin a a force along x is read as its cosine, one that turns backward as large
+// as it is, a ahead.
 TEST_F(ForceVerbs, ProbesReadTheOthers) {
   write_rotor(twice + shaker + R"([[probe]]
 name = "1X"
@@ -251,9 +251,9 @@ unit = "mil"
   EXPECT_EQ(whirl({"plot", "u.h5", "forced"}).status, 2);
 }
 
-// A force of order 1/40 repeats after 40 revolutions, more than are searched; forces of 12 and 18 Hz
-// after 1/6 s, whatever the speed: in no whole number of revolutions at 730 rpm, in 10 at 600 rpm,
-// where one of 12 Hz alone takes 1/12 s.
+// A force of order 1/40 repeats after 40 revolutions, more than are searched; forces of 12 and 18
+// Hz after 1/6 s, whatever the speed: in no whole number of revolutions at 730 rpm, in 10 at 600
+// rpm, where one of 12 Hz alone takes 1/12 s.
 TEST_F(ForceVerbs, MotionsSayAfterWhatTheyRepeat) {
   const std::string damped =
       "[damping]\nrayleigh = {mass = 20}\n[operation]\nspeed = \"730 rpm\"\n";

@@ -131,8 +131,8 @@ TEST_F(Lateral, TellsTheRegionOfTheGas) {
   EXPECT_TRUE(has(problem({"--gas-density", "5 kg"}), "--gas-density"));
 }
 
-// [operation] says what the options would; the options win, and the trip speed does not count where it is
-// below what they ask for.
+// [operation] says what the options would; the options win, and the trip speed does not count where
+// it is below what they ask for.
 TEST_F(Lateral, GoesByTheSpeedsOfTheModel) {
   std::string told = machine;
   const std::string speed = "speed = \"9000 rpm\"\n";
@@ -196,8 +196,9 @@ TEST_F(Lateral, SumsTheCrossCouplingOfItsStages) {
   EXPECT_NEAR(r["anticipated_n_m"], 1.5 * 3.0 * torque / (0.4 * 0.01) * 1.2, 1e-3);
 }
 
-// An amplification of 4 asks for 10.2 % below 8000 rpm and for 20.2 % above 9500 rpm: the border of what
-// is too near goes through both, and down to 2.5 at the speeds themselves, 10 % above the upper one.
+// An amplification of 4 asks for 10.2 % below 8000 rpm and for 20.2 % above 9500 rpm: the border of
+// what is too near goes through both, and down to 2.5 at the speeds themselves, 10 % above the
+// upper one.
 TEST_F(Lateral, DrawsWhatIsTooNearAndEveryCheck) {
   const json r = result({"lateral", "machine.toml", "--minimum-speed", "8000rpm", "--maximum-speed",
                          "9500rpm", "--out", "l.h5"});
@@ -260,7 +261,8 @@ TEST_F(Lateral, NeedsAShaftThatIsHeld) {
                   "a lateral analysis needs a shaft"));
 }
 
-// 25.4 sqrt(12 000 / 16 000) um are sqrt(3 / 4) mil; below 12 000 rpm 1 mil is allowed, and not more.
+// 25.4 sqrt(12 000 / 16 000) um are sqrt(3 / 4) mil; below 12 000 rpm 1 mil is allowed, and not
+// more.
 TEST_F(Lateral, VibrationIsToldInTheUnitOfTheProbes) {
   const auto with_probes = [&](const char* other) {
     write("machine.toml", std::string(machine) + R"([[probe]]

@@ -23,9 +23,10 @@ TEST_F(Linear, EveryVerbSaysModelVersionAndSpeed) {
   }
 }
 
-// A mass whose bearing feeds its forward whirl, Q = 3 MN/m against c omega = 0.5 MN/m, is unstable at every
-// speed. It has a response to unbalance and a receptance all the same, a margin that is kept, and no
-// threshold: each verb says in a note that it is unstable. Of the stable rotor none does.
+// A mass whose bearing feeds its forward whirl, Q = 3 MN/m against c omega = 0.5 MN/m, is unstable
+// at every speed. It has a response to unbalance and a receptance all the same, a margin that is
+// kept, and no threshold: each verb says in a note that it is unstable. Of the stable rotor none
+// does.
 TEST_F(Linear, SaysOfAnUnstableRotorThatItIs) {
   const std::string text = R"(format = 1
 [operation]
@@ -313,8 +314,8 @@ TEST_F(Linear, Unbalance) {
   }
 }
 
-// One peak at omega / (1 - 2 zeta^2)^(1/2) with an amplification factor of 1 / (2 zeta) = 50; API 617
-// asks for 17 (1 - 1 / 48.5) % > 16 % below the operating speed.
+// One peak at omega / (1 - 2 zeta^2)^(1/2) with an amplification factor of 1 / (2 zeta) = 50; API
+// 617 asks for 17 (1 - 1 / 48.5) % > 16 % below the operating speed.
 TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
   const auto peaks = [&](const std::string& speed, const std::string& speeds) {
     return result({"unbalance", "rotor.toml", "--speed", speed, "--speeds", speeds})["peaks"];

@@ -100,7 +100,8 @@ TEST_F(Measured, TellsNoSenseOfMotionsAlongALine) {
   EXPECT_FALSE(has(whirl(words).out, "from the rotor"));
 }
 
-// Probes of a machine in US units: tables and figures told micrometres, whatever the unit of the probes.
+// Probes of a machine in US units: tables and figures told micrometres, whatever the unit of the
+// probes.
 TEST_F(Measured, TellsReadingsInTheUnitOfTheProbes) {
   std::string text = "time [s],x [mil],y [mil],key [V]\n";
   const double rate = 4430.0 / 60.0 * 32.0;

@@ -132,8 +132,8 @@ table = "k.csv"
   }
 }
 
-// The sag of a shaft between bearings: reactions bear the rotor's weight, the moment is zero at both
-// ends and largest between.
+// The sag of a shaft between bearings: reactions bear the rotor's weight, the moment is zero at
+// both ends and largest between.
 TEST_F(Plot, ASagShowsReactionsAndMoments) {
   const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_double_rub.toml";
   make({"static", model}, "s.h5");
@@ -157,7 +157,8 @@ TEST_F(Plot, ASagShowsReactionsAndMoments) {
   EXPECT_FALSE(named(f.panels[0], "bearing").empty());
 }
 
-// Journals bear the rotor, so their films are told and labeled; seals that bear next to nothing are told only.
+// Journals bear the rotor, so their films are told and labeled; seals that bear next to nothing are
+// told only.
 TEST_F(Plot, ASagTellsWhatOilFilmsBear) {
   make({"static", WHIRL_SOURCE_DIR "/models/compressor.toml"}, "s.h5");
   const ResultView view(folder / "s.h5");
@@ -185,8 +186,8 @@ TEST_F(Plot, ASagTellsWhatOilFilmsBear) {
   EXPECT_EQ(arrows.end()[-1], fmt::format("↑ {:.4g} kN", -1e-3 * load(1, 1)));
 }
 
-// An isotropic rotor does not whirl backward by a forward force: rounding is neither a peak nor a line,
-// beside a response or alone.
+// An isotropic rotor does not whirl backward by a forward force: rounding is neither a peak nor a
+// line, beside a response or alone.
 TEST_F(Plot, AResponseThatIsNoneIsNotDrawn) {
   for (const std::string others : {"7:forward,", ""}) {
     const std::vector<std::string> call{"frf",     WHIRL_SOURCE_DIR "/models/two_disk_mac.toml",
@@ -207,7 +208,8 @@ TEST_F(Plot, AResponseThatIsNoneIsNotDrawn) {
   }
 }
 
-// Bearings of oil films are as long as they are, above and below the journals, which they leave room.
+// Bearings of oil films are as long as they are, above and below the journals, which they leave
+// room.
 TEST_F(Plot, ALayoutShowsOilFilmsToScale) {
   make({"modes", WHIRL_SOURCE_DIR "/models/compressor.toml"}, "m.h5");
   const ResultView view(folder / "m.h5");

@@ -1,4 +1,5 @@
-// plot: what authors draw of motions beside orbits: phase planes, tilts, motion relative to a stator.
+// plot: what authors draw of motions beside orbits: phase planes, tilts, motion relative to a
+// stator.
 
 #include <algorithm>
 #include <cmath>
@@ -143,8 +144,8 @@ TEST_F(PlotMotion, AllExponentsOfASweepAreDrawn) {
   }
 }
 
-// Exponents over the revolutions that they are averaged over end where the result has them; an orbit that
-// is proven has no such path.
+// Exponents over the revolutions that they are averaged over end where the result has them; an
+// orbit that is proven has no such path.
 TEST_F(PlotMotion, ExponentsSettleOverTime) {
   make({"classify", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed", "151rad/s", "--set",
         "contact.ring.stiffness=150e6", "--set", "contact.ring.friction=0.2", "--discard", "200",
@@ -182,8 +183,9 @@ TEST_F(PlotMotion, ForcesOverThatOfTheUnbalance) {
   EXPECT_NEAR(f.panels.at(0).curves.at(0).y.at(0), force / (2e-3 * Omega * Omega), 1e-9);
 }
 
-// The rotor of rub.toml touches where its clearance is below 1 mm: over three clearances of which two are
-// wider a point has two kinds of motion if rubbing is another kind, and no more than values.
+// The rotor of rub.toml touches where its clearance is below 1 mm: over three clearances of which
+// two are wider a point has two kinds of motion if rubbing is another kind, and no more than
+// values.
 TEST_F(PlotMotion, KindsOfAPointAreCounted) {
   const Outcome outcome =
       whirl({"map", "rub.toml", "--over", "contact.ring.stiffness=1e4,2e4", "--over",
@@ -209,7 +211,8 @@ TEST_F(PlotMotion, KindsOfAPointAreCounted) {
   }
 }
 
-// A blade that rubs is bent by its friction: l^3 / (3 E I) per force, less by the tension of its spin.
+// A blade that rubs is bent by its friction: l^3 / (3 E I) per force, less by the tension of its
+// spin.
 TEST_F(PlotMotion, BladesThatTouchAreBent) {
   make({"simulate", WHIRL_SOURCE_DIR "/models/blade_seal.toml", "--revolutions", "10", "--discard",
         "20"},

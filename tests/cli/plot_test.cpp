@@ -33,8 +33,8 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
         "coupling"}},
       {{"identify", disks, "--revolutions", "64"},
        {"layout", "modes", "orbit", "time_history", "spectrum", "waterfall", "poincare",
-        "phase_plane", "tilts", "contact_motion",
-        "contact_forces", "contact_angles", "mac", "all_spectra"}},
+        "phase_plane", "tilts", "contact_motion", "contact_forces", "contact_angles", "mac",
+        "all_spectra"}},
       {{"identify", disks, "--measured", "run.csv", "--probes", "probes.toml", "--orders", "1",
         "--running-modes"},
        {"layout", "modes", "measured_orbit", "measured_spectrum", "measured_waterfall",
@@ -43,11 +43,13 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
         "contact.ring.stiffness", "--revolutions", "4"},
        {"layout", "fit"}},
       {{"classify", "rub.toml", "--discard", "20"}, {"layout", "exponents"}},
-      {{"sweep", "rub.toml"}, {"layout", "bifurcation", "exponents_over", "spectral_map", "cascade"}},
+      {{"sweep", "rub.toml"},
+       {"layout", "bifurcation", "exponents_over", "spectral_map", "cascade"}},
       {{"continue", "rub.toml"}, {"layout", "branches"}},
       {borders, {"layout", "branches", "borders"}},
       {{"torus"}, {"layout", "torus"}},
-      {{"map", "rub.toml"}, {"layout", "map", "exponent_map", "regime_map", "shares", "contact_edges"}},
+      {{"map", "rub.toml"},
+       {"layout", "map", "exponent_map", "regime_map", "shares", "contact_edges"}},
       {{"basins", "rub.toml"}, {"layout", "basins"}},
       {{"bench", "rub.toml"}, {"layout", "work_precision"}}};
   write("shaken.toml",
@@ -155,8 +157,8 @@ TEST_F(Plot, BordersLieInThePlaneOfTheMap) {
                   "contact.ring.clearance"));
 }
 
-// A linear rotor, whose orbit is known: x at phase 0 is Re e m Omega^2 / (k - m Omega^2 + i c Omega),
-// and the exponent of a revolution -c / (2 m) times its time.
+// A linear rotor, whose orbit is known: x at phase 0 is Re e m Omega^2 / (k - m Omega^2 + i c
+// Omega), and the exponent of a revolution -c / (2 m) times its time.
 TEST_F(Plot, BranchesLieOverTheSweep) {
   constexpr double m = 2.0, k = 2e4, e = 1e-4, Omega = 60.0;
   write("rotor.toml", std::string(jeffcott) + "[operation]\nspeed = 60\n");
@@ -214,8 +216,8 @@ TEST_F(Plot, BranchesLieOverTheSweep) {
   EXPECT_TRUE(has(problem({"plot", "s.h5", "--with", "b.h5"}), "which kind of figure?"));
 }
 
-// Ratios of small integers that a rotation from 0.3 to 0.45 passes: 1/3, 2/5, 3/7, 3/8, 4/9, ...; of
-// circles of every second revolution 1/3 = (2/3)/2, 3/8 = (3/4)/2, 3/10 = (3/5)/2, ...
+// Ratios of small integers that a rotation from 0.3 to 0.45 passes: 1/3, 2/5, 3/7, 3/8, 4/9, ...;
+// of circles of every second revolution 1/3 = (2/3)/2, 3/8 = (3/4)/2, 3/10 = (3/5)/2, ...
 TEST_F(Plot, LinesAtTheRatiosThatARotationPasses) {
   for (const int period : {1, 2}) {
     const std::string file = "t" + std::to_string(period) + ".h5";

@@ -39,8 +39,8 @@ std::vector<ShownText> texts_in(const std::string& svg) {
   return all;
 }
 
-// A column of a journal, 85 x 60 mm at 8 pt: the picture has that size and its letters theirs, and no
-// text lies on another one or reaches out.
+// A column of a journal, 85 x 60 mm at 8 pt: the picture has that size and its letters theirs, and
+// no text lies on another one or reaches out.
 TEST_F(PrintedSize, APictureOfAJournalColumnIsReadable) {
   make({"unbalance", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--speeds", "0:8000:100rpm"},
        "u.h5");

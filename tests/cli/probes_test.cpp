@@ -126,8 +126,8 @@ TEST_F(Probes, TellMotions) {
   }
 }
 
-// 70 revolutions are no number of samples for the transform: it takes 64 of them, where the speed is
-// a line of the spectrum and so the reading at its full size, 2 e r^2 / |1 - r^2 + 2 i zeta r|.
+// 70 revolutions are no number of samples for the transform: it takes 64 of them, where the speed
+// is a line of the spectrum and so the reading at its full size, 2 e r^2 / |1 - r^2 + 2 i zeta r|.
 TEST_F(Probes, SpectraAreOfWholeRevolutions) {
   constexpr double ratio = 0.6, of_rest = 1e-2;  // what is left of the transient
   const double size = 2e6 * e * ratio * ratio / std::hypot(1.0 - ratio * ratio, 2.0 * zeta * ratio);
@@ -181,8 +181,8 @@ TEST_F(Probes, TellEveryOrbitOfASearch) {
           "probes"));
 }
 
-// Bouncing repeats as seen from the rotor and never from outside: in time every probe at a station reads
-// as much, which is what a long simulation finds.
+// Bouncing repeats as seen from the rotor and never from outside: in time every probe at a station
+// reads as much, which is what a long simulation finds.
 TEST_F(Probes, TellOrbitsThatRepeatSeenFromTheRotor) {
   write("two.toml", content(WHIRL_SOURCE_DIR "/models/two_disk_mac.toml") +
                         "\n[[probe]]\nname = \"a\"\nnode = 4\nangle = \"20 deg\"\n"
@@ -405,8 +405,8 @@ TEST_F(Probes, AreNotInStudiesOfModelsWithoutThem) {
   EXPECT_EQ(variants("bifurcation", "s.h5"), std::vector<std::string>{"rotor"});
 }
 
-// The sag of 0.98 mm is no motion; seen from the rotor it would be a circle beside which the orbit of
-// 0.06 mm, which stands still there, is not seen.
+// The sag of 0.98 mm is no motion; seen from the rotor it would be a circle beside which the orbit
+// of 0.06 mm, which stands still there, is not seen.
 TEST_F(Probes, SagIsLeftOutOfWhatTurnsWithTheRotor) {
   simulate("32");
   const json r = result(
@@ -437,7 +437,8 @@ TEST_F(Probes, SagIsLeftOutOfWhatTurnsWithTheRotor) {
   }
 }
 
-// A forward whirl tilts faces forward: two axial probes a quarter turn apart see it as two radial ones do.
+// A forward whirl tilts faces forward: two axial probes a quarter turn apart see it as two radial
+// ones do.
 TEST_F(Probes, AlongTheShaftAreReadRecordedAndIdentified) {
   const std::string rotor = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   const std::string faces = R"([[probe]]

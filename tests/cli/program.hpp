@@ -175,8 +175,8 @@ class Program : public testing::Test {
   const std::filesystem::path outputs[2] = {folder.string() + ".out", folder.string() + ".err"};
 };
 
-/// Names of the verbs that take any model and nothing else: small ones do not move quasi-periodically,
-/// as torus needs, nor have they a shaft, as lateral does; fit takes a record.
+/// Names of the verbs that take any model and nothing else: small ones do not move
+/// quasi-periodically, as torus needs, nor have they a shaft, as lateral does; fit takes a record.
 inline const std::vector<std::string> model_verbs = [] {
   std::vector<std::string> names;
   for (const Verb& verb : verbs()) {

@@ -1,4 +1,5 @@
-// whirl-mpi: a study in several processes gives the file that whirl gives, whatever becomes of them.
+// whirl-mpi: a study in several processes gives the file that whirl gives, whatever becomes of
+// them.
 
 #include <array>
 #include <cstdlib>
@@ -83,7 +84,8 @@ class Mpi : public Studies {
     return parent;
   }
 
-  /// Processes of the program that a process, or one of its own, has started, in the order of their ranks.
+  /// Processes of the program that a process, or one of its own, has started, in the order of their
+  /// ranks.
   static std::vector<pid_t> ranks_of(pid_t parent, std::size_t count) {
     std::vector<pid_t> found;
     while (found.size() < count && ::kill(parent, 0) == 0) {

@@ -144,8 +144,8 @@ TEST_F(Report, AResponseOnOilFilmsMovesThePagesRotorAsTheVerbSays) {
   }
 }
 
-// Two runs over each other: what was changed is said, and every curve of both is there, in the units
-// of the first, although the second one's motion is so small that it is shown in others.
+// Two runs over each other: what was changed is said, and every curve of both is there, in the
+// units of the first, although the second one's motion is so small that it is shown in others.
 TEST_F(Report, AReportComparesResults) {
   for (const auto& [set, out] :
        {std::pair{"unbalance.1.offset=1mm", "a.h5"}, {"unbalance.1.offset=0.0001mm", "b.h5"}}) {
@@ -217,8 +217,8 @@ TEST_F(Report, AnalysesOfOneModelAreOneReport) {
   }
 }
 
-// Nodes of another model than that of the file, as of files that were put together: the page says which
-// figure failed and why, and draws the others.
+// Nodes of another model than that of the file, as of files that were put together: the page says
+// which figure failed and why, and draws the others.
 TEST_F(Report, AFigureThatFailsLeavesTheOthers) {
   const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   ASSERT_EQ(whirl({"modes", disks, "--out", "whole.h5"}).status, 0);

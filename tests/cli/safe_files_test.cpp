@@ -91,8 +91,8 @@ TEST_F(SafeFiles, AFullDiskCostsNoFile) {
   const std::string simulate = " simulate rub.toml --discard 0 --revolutions 41 --quiet --force ",
                     record = simulate + "--measure probes.toml --measured-out run.";
   for (const std::string& line :
-       {simulate + "--out run.h5", record + "csv", record + "mat", record + "wav --speed 960rpm", record + "uff",
-        std::string(" schema --out run.json --force"),
+       {simulate + "--out run.h5", record + "csv", record + "mat", record + "wav --speed 960rpm",
+        record + "uff", std::string(" schema --out run.json --force"),
         std::string(" report run.h5 --out page.html"),
         std::string(" plot run.h5 orbit --out orbit.svg"),
         std::string(" export run.h5 --format csv --out table")}) {

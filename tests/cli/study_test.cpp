@@ -27,9 +27,10 @@ TEST_F(Study, MapTellsRegimesAndMotions) {
   EXPECT_NEAR(r["lyapunov_max"][1][1].get<double>() * 136.0 / (2.0 * pi), -2.944044, 1e-6);
 }
 
-// Over the planes of the published study period 1 prevails with little friction, and at 0.3 hyperchaos is
-// common, as is printed. At 0.12, where chaos at 60 % of the points is printed, it is rare: most of what is
-// without order is quasi-periodic or has not settled (docs/validation.md). By 64 points of each plane.
+// Over the planes of the published study period 1 prevails with little friction, and at 0.3
+// hyperchaos is common, as is printed. At 0.12, where chaos at 60 % of the points is printed, it is
+// rare: most of what is without order is quasi-periodic or has not settled (docs/validation.md). By
+// 64 points of each plane.
 TEST_F(Study, MapShowsHowFrictionMakesDisorder) {
   const json r =
       result({"map", stator, "--over", "contact.ring.friction=0.095,0.12,0.3", "--over",
@@ -61,8 +62,8 @@ TEST_F(Study, MapShowsHowFrictionMakesDisorder) {
   EXPECT_GT(share(2, is_hyperchaotic), 0.2);
 }
 
-// The motions that equal steps of the Runge-Kutta method make: (150 rad/s, 100 MN/m, 0.12) is a torus, and chaos
-// with 1000 steps a revolution. It is said whose motions these are.
+// The motions that equal steps of the Runge-Kutta method make: (150 rad/s, 100 MN/m, 0.12) is a
+// torus, and chaos with 1000 steps a revolution. It is said whose motions these are.
 TEST_F(Study, StepsOfRk4MakeChaosOfATorus) {
   const std::vector<std::string> at{"--set", "contact.ring.stiffness=100e6", "--set",
                                     "contact.ring.friction=0.12"};
@@ -110,8 +111,8 @@ TEST_F(Study, ImpactsAreToldOfEachContact) {
   EXPECT_TRUE(has(whirl(line).out, "6 impacts in 4 revolutions, left ring 3/4, right ring 3/4"));
 }
 
-// On oil films the rub begins between 334 and 335 rad/s (an independent program: 334.6), whatever the stiffness of
-// the rings and their friction: the orbit grows into them.
+// On oil films the rub begins between 334 and 335 rad/s (an independent program: 334.6), whatever
+// the stiffness of the rings and their friction: the orbit grows into them.
 TEST_F(Study, MapShowsThatTheOnsetOfRubIsThatOfTheOrbit) {
   const json r = result({"map", WHIRL_SOURCE_DIR "/models/two_disk_oil_film.toml", "--over",
                          "operation.speed=334,335rad/s", "--over",
@@ -238,8 +239,8 @@ TEST_F(Study, BasinsFindsCoexistingMotions) {
   EXPECT_NE(result(words)["attractors"], r["attractors"]);
 }
 
-// The rotor of the tutorial at 4430 rpm: one motion without contact, whose transient falls by 0.2 % a
-// revolution, and one that bounces, to which the model's own start leads. Neither waits for its
+// The rotor of the tutorial at 4430 rpm: one motion without contact, whose transient falls by 0.2 %
+// a revolution, and one that bounces, to which the model's own start leads. Neither waits for its
 // transient to be taken for one more.
 TEST_F(Study, BasinsFindsEveryMotionOnce) {
   write("two_disk.toml", R"(format = 1
@@ -389,8 +390,8 @@ TEST_F(Study, AFewPointsAreKeptOnCtrlCToo) {
   expect_same("whole.h5", "map.h5", "/map");
 }
 
-// A scheduler warns by SIGUSR1 or SIGTERM, and may do so several times over: to the job's script, to
-// each of its processes, and by mpirun once more.
+// A scheduler warns by SIGUSR1 or SIGTERM, and may do so several times over: to the job's script,
+// to each of its processes, and by mpirun once more.
 TEST_F(Study, StopsOnTheSignalsOfSchedulersAndGoesOn) {
   std::vector<std::string> words{"map",           stator,
                                  "--over",        "operation.speed=130:160:0.5rad/s",
@@ -514,8 +515,8 @@ TEST_F(Study, RefusesFilesOfOtherStudies) {
   EXPECT_NE(content(folder / "map.h5"), before);
 }
 
-// Cross-coupled springs drive the motion beyond all bounds at some points: they are marked, the rest
-// is there.
+// Cross-coupled springs drive the motion beyond all bounds at some points: they are marked, the
+// rest is there.
 TEST_F(Study, KeepsGoingWherePointsFail) {
   const json r =
       result({"map", "rub.toml", "--set", "bearing.shaft.stiffness={xx=2e4,yy=2e4,xy=0,yx=-1e6}",

@@ -53,8 +53,8 @@ TEST_F(Terminal, NoLineIsWiderThanIt) {
   }
 }
 
-// A title, a station's name and the name of a file can hold escape sequences: none comes to the terminal, and
-// JSON and result have what was written.
+// A title, a station's name and the name of a file can hold escape sequences: none comes to the
+// terminal, and JSON and result have what was written.
 TEST_F(Terminal, NamesOfStrangersDoNotSteerIt) {
   const std::string clear = "\x1b[2J", shown = "\ufffd[2J";
   std::string model = jeffcott;

@@ -129,8 +129,8 @@ TEST_F(VerbsOfTheProgram, HelpPrintsEveryOptionWithItsDefault) {
   }
 }
 
-// Placeholders of values that may be any text stand for names, files and places; all others are read
-// before the work, and a wrong one is told with its option.
+// Placeholders of values that may be any text stand for names, files and places; all others are
+// read before the work, and a wrong one is told with its option.
 TEST_F(VerbsOfTheProgram, RefuseValuesThatMeanNothingByTheNamesOfTheirOptions) {
   static const std::regex any_text("FILE.*|OTHER.h5|NAME.*|PATH.*|VALUE.*");
   write("rub.toml", rubbing);
@@ -206,8 +206,8 @@ TEST(Manual, ListsTheOptionsOfEveryVerb) {
   }
 }
 
-// No number from outside costs in proportion to itself without an end: every whole number has a range
-// (a declaration without one does not compile), and the table of limits says it.
+// No number from outside costs in proportion to itself without an end: every whole number has a
+// range (a declaration without one does not compile), and the table of limits says it.
 TEST(Manual, ListsTheRangeOfEveryWholeNumber) {
   std::map<std::pair<std::string, std::string>, std::string> listed, known;  // of verb and option
   const std::string part = below(manual(), "### Limits");
@@ -284,8 +284,8 @@ TEST_F(VerbsOfTheProgram, TellThePathOfAKeyAlone) {
   EXPECT_TRUE(has(free, "did you mean contact.")) << free;
 }
 
-// Threads are started one after another as long as the system gives them: a thousand million of them
-// took the machine down.
+// Threads are started one after another as long as the system gives them: a thousand million of
+// them took the machine down.
 TEST_F(VerbsOfTheProgram, StartNoMoreThreadsThanTheLimit) {
   write("rub.toml", rubbing);
   const Outcome outcome =

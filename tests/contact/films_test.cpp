@@ -45,8 +45,8 @@ Force integrated(double x, double y, double a, double b) {
   return sum;
 }
 
-// Of an independent program for the two-disk rotor on oil films, to ten digits; the sign of one term of
-// the paper's fy is corrected there as here.
+// Of an independent program for the two-disk rotor on oil films, to ten digits; the sign of one
+// term of the paper's fy is corrected there as here.
 TEST(ShortFilm, HasTheForcesOfAnIndependentProgram) {
   constexpr double digits = 5e-10;
   const auto expect = [&](double x, double y, double x_rate, double y_rate, Force found) {
@@ -77,7 +77,8 @@ TEST(ShortFilm, IsTheIntegralOfItsPressure) {
 
 // A journal that only turns, at eccentricity e (Ocvirk's load, half of the film):
 //
-//   |F| = e (16 e^2 + pi^2 (1 - e^2))^(1/2) / (1 - e^2)^2,   tan(attitude) = pi (1 - e^2)^(1/2) / (4 e)
+//   |F| = e (16 e^2 + pi^2 (1 - e^2))^(1/2) / (1 - e^2)^2,   tan(attitude) = pi (1 - e^2)^(1/2) /
+//   (4 e)
 TEST(ShortFilm, CarriesTheLoadOfTheTextbook) {
   for (const double e : {1e-6, 0.01, 0.3, 0.6, 0.9, 0.99, 0.9999}) {
     const Force f = force(e, 0.0, e, 0.0);
@@ -162,8 +163,9 @@ Circle circle(const Squeeze& law, double e, double omega) {
 }
 
 // Short, with B = pi viscosity R (L/c)^3: half  C = B / (2 (1-e^2)^(3/2)), K = 2 viscosity omega R
-// (L/c)^3 e / (1-e^2)^2; full  C = B / (1-e^2)^(3/2), K = 0. Long, with 12 viscosity L (R/c)^3: half
-// C = pi b / ((2+e^2) (1-e^2)^(1/2)), K = 2 b omega e / ((2+e^2) (1-e^2)); full twice C and no K.
+// (L/c)^3 e / (1-e^2)^2; full  C = B / (1-e^2)^(3/2), K = 0. Long, with 12 viscosity L (R/c)^3:
+// half C = pi b / ((2+e^2) (1-e^2)^(1/2)), K = 2 b omega e / ((2+e^2) (1-e^2)); full twice C and no
+// K.
 TEST(SqueezeFilm, HasTheCoefficientsOfCenteredCircles) {
   constexpr double digits = 1e-9, omega = 1000.0;
   const auto& [R, L, c, viscosity] = damper;
@@ -197,8 +199,8 @@ double integral(const F& f, double from, double to, int points = 4000) {
   return sum;
 }
 
-// The long films from H^3 P' = -integral of the squeeze + constant, which the pressures at the ends of
-// the oil give: equal all around, or zero at both ends of the half.
+// The long films from H^3 P' = -integral of the squeeze + constant, which the pressures at the ends
+// of the oil give: equal all around, or zero at both ends of the half.
 TEST(SqueezeFilm, IsTheIntegralOfItsPressure) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit;

@@ -69,8 +69,8 @@ TEST(AutonomousOrbit, KnowsTheShortestPeriod) {
   EXPECT_NEAR(shortest.multipliers(0).real(), once.multipliers(0).real(), 1e-10);
 }
 
-// Along m the period leaves 2 pi as m^2 / 16, and at m = 1 it is 6.6632868593231: found by itself, and
-// at the end of a branch.
+// Along m the period leaves 2 pi as m^2 / 16, and at m = 1 it is 6.6632868593231: found by itself,
+// and at the end of a branch.
 TEST(AutonomousOrbit, IsFollowedAlongAParameter) {
   Continuation walk = autonomous_continuation(van_der_pol, (Vec(2) << 2.0, 0.1).finished(), 6.3,
                                               {.low = 0.1, .high = 1.0, .first = 0.1});

@@ -31,7 +31,8 @@ Flow henon(double a, double b) {
   });
 }
 
-/// The whole border through (x, first), along the second parameter from the first to its last value.
+/// The whole border through (x, first), along the second parameter from the first to its last
+/// value.
 Branch border(BifurcationKind kind, const FlowPlane& flows, const Vec& scale, const Vec& x,
               double first, const ContinuationOptions& second) {
   constexpr double low = -2.0, high = 4.0;
@@ -48,8 +49,8 @@ Branch border(BifurcationKind kind, const FlowPlane& flows, const Vec& scale, co
   return branch;
 }
 
-// Henon's map: fold at a = -(1 - b)^2 / 4, x = -(1 - b) / 2; period doubling at a = 3 (1 - b)^2 / 4,
-// x = (1 - b) / 2; the doubled orbit doubles at a = (1 - b)^2 + (1 + b)^2 / 4.
+// Henon's map: fold at a = -(1 - b)^2 / 4, x = -(1 - b) / 2; period doubling at a = 3 (1 - b)^2 /
+// 4, x = (1 - b) / 2; the doubled orbit doubles at a = (1 - b)^2 + (1 + b)^2 / 4.
 TEST(BifurcationCurve, FollowsFoldsAndPeriodDoublingsOfHenonsMap) {
   const FlowPlane plane{henon, {}};
   const ContinuationOptions b{.low = -0.5, .high = 0.5, .first = -0.5};
@@ -98,8 +99,8 @@ TEST(BifurcationCurve, FollowsNeimarkSackerPoints) {
                NumericalError);
 }
 
-/// Derivatives of the residual by the states, by the first parameter and by the second, by differences of
-/// the eighth order.
+/// Derivatives of the residual by the states, by the first parameter and by the second, by
+/// differences of the eighth order.
 Mat differences(const BranchEquations& equations, const Vec& x, double second, double step) {
   const auto residual = [&](const Vec& at, double b) {
     return equations.at(at, b, WithTangent::no).residual;
@@ -153,8 +154,8 @@ struct Plane {
   }
 };
 
-/// Whether a curve of a kind has the derivatives that differences tend to; nothing where there is no such
-/// multiplier.
+/// Whether a curve of a kind has the derivatives that differences tend to; nothing where there is
+/// no such multiplier.
 std::optional<bool> has_derivatives(const Plane& plane, BifurcationKind kind) {
   constexpr double bound = 1e-7;  // tangents have thirteen digits, of which impacts take some
   const PlaneScenes scenes = plane.scenes();
@@ -210,9 +211,9 @@ TEST(BifurcationCurve, HasNoDerivativesWhereShapesChange) {
   EXPECT_TRUE(slopes(0)->panel_at(first, 4e6, 0.15));
 }
 
-// Below its critical speed the rotor alone turns in a circle, r = e W^2 / |w^2 - W^2 + 2 i d W|, around
-// its sag, m g / k: it grazes the ring where both add up to the clearance. As plane: offset of the
-// unbalance e in units of 1 mm, and the speed.
+// Below its critical speed the rotor alone turns in a circle, r = e W^2 / |w^2 - W^2 + 2 i d W|,
+// around its sag, m g / k: it grazes the ring where both add up to the clearance. As plane: offset
+// of the unbalance e in units of 1 mm, and the speed.
 TEST(BifurcationCurve, FollowsGrazingsInClosedForm) {
   const auto at = [](double e, double W) {
     test::RotorStator p = test::P1;

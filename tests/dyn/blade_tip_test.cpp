@@ -280,8 +280,8 @@ TEST(BladeTips, AreMeasuredAsOneContact) {
   EXPECT_NEAR(measures[0].duty, any / time, 1e-12);
 }
 
-// What is recorded of a row of blades is the sum over all that touch: slipping forward, the friction
-// is mu times the normal force, also while several press.
+// What is recorded of a row of blades is the sum over all that touch: slipping forward, the
+// friction is mu times the normal force, also while several press.
 TEST(BladeTips, AreRecordedTogether) {
   constexpr double rounding = 1e-12;  // relative, of a sum over few blades
   BladedDisk p;

@@ -38,7 +38,8 @@ struct StoppedStudy {
   }
 };
 
-// Both ways from friction 0.13 there is one period doubling; the orbit of twice the period begins there.
+// Both ways from friction 0.13 there is one period doubling; the orbit of twice the period begins
+// there.
 TEST(BranchTree, BranchesOutAtThePeriodDoubling) {
   const DoublingRotor rotor;
   long shown = 0;
@@ -63,8 +64,8 @@ TEST(BranchTree, BranchesOutAtThePeriodDoubling) {
   for (const BranchPoint& p : down.branch.points) EXPECT_EQ(p.is_stable(), p.value > doubling);
 }
 
-// Wherever it is stopped, and from every state that it gives to be saved, it ends the same; so it does in
-// stretches of one point, and with several threads.
+// Wherever it is stopped, and from every state that it gives to be saved, it ends the same; so it
+// does in stretches of one point, and with several threads.
 TEST(BranchTree, GoesOnWhereItWasStopped) {
   const DoublingRotor rotor;
   const BranchStudyOptions options{.tree = rotor.options()};
@@ -131,8 +132,8 @@ WalkNews ends_at(double value, EndKind end) {
           .starts = {Vec()}};
 }
 
-// A branch that another one turns out to have walked goes with all that was found of it, and its number
-// goes to the next one, whether it is away, has been walked to its end meanwhile, or waits.
+// A branch that another one turns out to have walked goes with all that was found of it, and its
+// number goes to the next one, whether it is away, has been walked to its end meanwhile, or waits.
 TEST(BranchTree, DropsABranchThatWasWalkedTwice) {
   const DoublingRotor rotor;
   const ParameterScenes scenes = rotor.scenes();

@@ -349,8 +349,8 @@ Model growing() {
   return model;
 }
 
-// A motion that grows by e^14 in a second passes 1e10 clearances within 105 revolutions. Pieces of the
-// dense output have an error relative to it: absolute ones would be halved to no end.
+// A motion that grows by e^14 in a second passes 1e10 clearances within 105 revolutions. Pieces of
+// the dense output have an error relative to it: absolute ones would be halved to no end.
 TEST(Collocation, ShowsAMotionThatGrowsInAsManyPiecesAsItTakes) {
   constexpr long too_many = 20'000;  // pieces; some ten a revolution are enough
   const Model model = growing();

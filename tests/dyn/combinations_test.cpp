@@ -70,8 +70,8 @@ TEST(CombinationOf, IsRarelyFoundByChance) {
   }
 }
 
-// A motion of the unbalance, a mode, and what a contact makes of both: the third has the shape of the
-// mode, and is no mode.
+// A motion of the unbalance, a mode, and what a contact makes of both: the third has the shape of
+// the mode, and is no mode.
 TEST(Identify, NamesWhatIsMadeOfStrongerPeaks) {
   using test::rpm;
   const Model model = test::TwoDiskRub{.speed = 4430.0 * rpm, .modes = 0}.model();

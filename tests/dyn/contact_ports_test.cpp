@@ -1,5 +1,5 @@
-// Forces of contacts and films on periodic motions: the same as those of the equations of motion, with
-// the slopes of differences, and Fourier integrals that kinks and jumps do not spoil.
+// Forces of contacts and films on periodic motions: the same as those of the equations of motion,
+// with the slopes of differences, and Fourier integrals that kinks and jumps do not spoil.
 
 #include "libdyn/system/contact_ports.hpp"
 
@@ -113,8 +113,8 @@ Periodic at_ports(const PortForces& forces, const Periodic& motion) {
   return {forces.U * motion.coefficients, motion.period, motion.rate};
 }
 
-// What the samples say is what the equations of motion have beyond their linear part; whatever is not
-// sampled has no force.
+// What the samples say is what the equations of motion have beyond their linear part; whatever is
+// not sampled has no force.
 TEST(PortForces, AreThoseOfTheEquationsOfMotion) {
   for (const Case& c : cases()) {
     const Scene scene = make_scene(c.model);
@@ -154,8 +154,9 @@ TEST(PortForces, AreThoseOfTheEquationsOfMotion) {
   }
 }
 
-// The equations of harmonic balance, whose forces are Fourier integrals over spans that move with the
-// motion: their slopes are those of differences, jumps at touches and reversals of slip included.
+// The equations of harmonic balance, whose forces are Fourier integrals over spans that move with
+// the motion: their slopes are those of differences, jumps at touches and reversals of slip
+// included.
 TEST(PortForces, HaveTheSlopesOfDifferences) {
   for (const Case& c : cases()) {
     const Scene scene = make_scene(c.model);

@@ -195,8 +195,8 @@ TEST(ContactSystem, ClassifiesAnInstantWithoutAPast) {
   EXPECT_EQ(touch(1.1e-3, 0.0, -p.Omega * p.R).touch, Touch::sticking);
 }
 
-// No slip, and along t an unbalance of 1000 N against a friction of 20 N at most: it begins to slide
-// the way that it is pulled.
+// No slip, and along t an unbalance of 1000 N against a friction of 20 N at most: it begins to
+// slide the way that it is pulled.
 TEST(ContactSystem, ClassifiesWhatFrictionCannotHoldAsSlidingThatWay) {
   const MassInRing p{.U = 0.1, .kC = 1e6, .mu = 0.2, .R = 0.05, .clearance = 1e-3};
   const Scene scene = p.scene();

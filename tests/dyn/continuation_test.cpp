@@ -1,5 +1,5 @@
-// Branches of periodic orbits: maps whose bifurcations are known exactly, Duffing's folds, an impact
-// oscillator in closed form, and the rotor in its stator.
+// Branches of periodic orbits: maps whose bifurcations are known exactly, Duffing's folds, an
+// impact oscillator in closed form, and the rotor in its stator.
 
 #include "libdyn/branches/continuation.hpp"
 
@@ -23,8 +23,8 @@ using enum BifurcationKind;
 
 constexpr double located = 1e-6;  ///< relative, to which bifurcations are to be found
 
-/// How near to the grazing of a rigid impact a branch gets: the steps that converge there go with the
-/// square of the speed of the impact, and the speed with the distance.
+/// How near to the grazing of a rigid impact a branch gets: the steps that converge there go with
+/// the square of the speed of the impact, and the speed with the distance.
 constexpr double near_grazing = 5e-3;
 
 /// x -> x^2 + c
@@ -76,9 +76,9 @@ TEST(SwitchBranch, OfADoubledPeriodHasTwiceTheImpacts) {
   EXPECT_EQ(next->start.contacts[0].duty, 0.25);
 }
 
-// x^2 + u^2 = 1 is a closed branch. That it closes is seen although its multipliers, a complex pair, come in
-// any order, and the largest force, which is taken at points of steps, a little different each time: orbits
-// of a free period come back to themselves with another phase.
+// x^2 + u^2 = 1 is a closed branch. That it closes is seen although its multipliers, a complex
+// pair, come in any order, and the largest force, which is taken at points of steps, a little
+// different each time: orbits of a free period come back to themselves with another phase.
 TEST(Continuation, ClosesWhateverTheOrderOfMultipliers) {
   int calls = 0;
   const BranchEquations circle{[&](const Vec& x, double u, WithTangent) {
@@ -102,8 +102,8 @@ TEST(Continuation, ClosesWhateverTheOrderOfMultipliers) {
   }
 }
 
-// x -> x^2 + c: fixed points 1/2 +- sqrt(1/4 - c) meet at c = 1/4; the lower one doubles its period at
-// -3/4, that of period 2 at -5/4; period 3 comes up in a fold at -7/4.
+// x -> x^2 + c: fixed points 1/2 +- sqrt(1/4 - c) meet at c = 1/4; the lower one doubles its period
+// at -3/4, that of period 2 at -5/4; period 3 comes up in a fold at -7/4.
 TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {
   const ContinuationOptions options{.low = -1.5, .high = 0.5, .first = -1.5, .largest_step = 0.05};
   const double x = 0.5 - std::sqrt(1.75);
@@ -177,8 +177,8 @@ TEST(Continuation, SwitchesAtAPitchfork) {
   EXPECT_TRUE(side.points.back().is_stable());
 }
 
-// The delayed logistic map (x, y) -> (a x (1 - y), x): x = y = 1 - 1 / a loses its stability at a = 2
-// with the multipliers exp(+-i pi / 3).
+// The delayed logistic map (x, y) -> (a x (1 - y), x): x = y = 1 - 1 / a loses its stability at a =
+// 2 with the multipliers exp(+-i pi / 3).
 TEST(Continuation, FindsANeimarkSackerBifurcation) {
   const FlowAt logistic = [](double a) {
     return test::map_flow(2, [a](const Vec& y, Vec& f, Mat& J) {
@@ -195,8 +195,8 @@ TEST(Continuation, FindsANeimarkSackerBifurcation) {
               0.0, 1e-5);
 }
 
-// Duffing's equation with damping e / 2, stiffness 1 + e x^2, force 2 e: one harmonic is the first order of averaging,
-// so that the frequencies of both folds come out of it to the order e^2.
+// Duffing's equation with damping e / 2, stiffness 1 + e x^2, force 2 e: one harmonic is the first
+// order of averaging, so that the frequencies of both folds come out of it to the order e^2.
 TEST(Continuation, FindsTheFoldsOfDuffingsEquation) {
   std::vector<double> number, errors[2];
   for (const double e : {0.01, 0.005, 0.0025}) {
@@ -276,8 +276,8 @@ TEST(Continuation, FollowsAnImpactingOrbitRoundItsFoldToItsGrazing) {
   }
 }
 
-// The same wall at another frequency: the orbit doubles its period at the speed v where its multipliers
-// are -1 and -r^2.
+// The same wall at another frequency: the orbit doubles its period at the speed v where its
+// multipliers are -1 and -r^2.
 TEST(Continuation, FindsThePeriodDoublingOfAnImpactingOrbit) {
   const test::ImpactOscillator p{.w = 2.2};
   const auto flow_at = [&](double A) {
@@ -321,8 +321,8 @@ struct Cascade {
   }
 };
 
-// Period 1 at 0.15, 2 at 0.12, 4 at 0.11, 8 at 0.107, as simulations say: each doubling lies between.
-// The orbit of period 1 goes on, unstable, through chaos to no friction at all.
+// Period 1 at 0.15, 2 at 0.12, 4 at 0.11, 8 at 0.107, as simulations say: each doubling lies
+// between. The orbit of period 1 goes on, unstable, through chaos to no friction at all.
 TEST(Continuation, FollowsACascadeIntoChaos) {
   const Cascade rotor;
   const Branch one =
@@ -346,7 +346,8 @@ TEST(Continuation, FollowsACascadeIntoChaos) {
   EXPECT_GT((d1 - d2) / (d2 - d3), 1.0);
   EXPECT_LT((d1 - d2) / (d2 - d3), 4.67);
 
-  // simulations from beside the orbits come back where these are stable, and leave where they are not
+  // simulations from beside the orbits come back where these are stable, and leave where they are
+  // not
   constexpr double beside = 1e-6, clear = 0.02;  // clearances; of the largest multiplier from 1
   int stable = 0, unstable = 0;
   for (const Branch* branch : {&one, &two, &four}) {

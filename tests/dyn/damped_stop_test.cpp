@@ -1,5 +1,5 @@
-// Saltation at a damped stop: without it a stable orbit would be called unstable, and the sum of the
-// exponents would not betray that.
+// Saltation at a damped stop: without it a stable orbit would be called unstable, and the sum of
+// the exponents would not betray that.
 
 #include <gtest/gtest.h>
 

@@ -128,8 +128,8 @@ TEST(DampedContact, NeverPulls) {
   EXPECT_GT(smallest, -1e-9 * largest);
 }
 
-// A damped contact whose force lets go and presses again while the rotor stays beyond the surface has
-// not come to touch again: impacts are touches, of the meter and of lanes alike.
+// A damped contact whose force lets go and presses again while the rotor stays beyond the surface
+// has not come to touch again: impacts are touches, of the meter and of lanes alike.
 TEST(DampedContact, CountsTouchesAsImpactsAndNoForcesThatPressAgain) {
   long touches = 0, retouches = 0;
   for (const double U : {1e-3, 1.5e-3, 2e-3}) {

@@ -13,8 +13,8 @@
 
 namespace whirl::exponents_test {
 
-// What tangents grow by while they turn to their directions is no part of the mean: e^6 at first, then
-// e^0.2 and e^-0.1 a revolution, the first of them in the second column.
+// What tangents grow by while they turn to their directions is no part of the mean: e^6 at first,
+// then e^0.2 and e^-0.1 a revolution, the first of them in the second column.
 TEST(Exponents, LeaveOutWhatTangentsAlignBy) {
   constexpr int T = 200;
   Mat growths(2, T);
@@ -26,7 +26,8 @@ TEST(Exponents, LeaveOutWhatTangentsAlignBy) {
   EXPECT_NEAR(e.resolution, 2.0 * e.zero, 1e-12);  // nothing is left to chance
 }
 
-// The path ends in the estimate of all revolutions, and each of its points is that of the first ones.
+// The path ends in the estimate of all revolutions, and each of its points is that of the first
+// ones.
 TEST(Exponents, PathIsOfTheFirstRevolutions) {
   constexpr int T = 100;
   Mat growths(2, T);
@@ -58,9 +59,9 @@ TEST(Exponents, KnowWhatChanceLeavesOfThem) {
   EXPECT_GE(within, 990);
 }
 
-// At 160 rad/s and 130 MN/m the rotor moves on a torus, whose largest exponent is zero. All growth in
-// 100 revolutions over their number is 0.06, above what counts as zero: most of it is what tangents
-// align by.
+// At 160 rad/s and 130 MN/m the rotor moves on a torus, whose largest exponent is zero. All growth
+// in 100 revolutions over their number is 0.06, above what counts as zero: most of it is what
+// tangents align by.
 TEST(Exponents, OfATorusAreZeroAfterAHundredRevolutions) {
   const test::RotorStator p{.Omega = 160.0, .kC = 130e6};
   const Scene scene = p.scene();

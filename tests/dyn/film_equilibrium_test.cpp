@@ -37,7 +37,8 @@ MassOnFilm running_at(double e, double Omega) {
   return rotor;
 }
 
-// Coefficients are those of the equilibrium, bit by bit, found once: asked again they are the same place.
+// Coefficients are those of the equilibrium, bit by bit, found once: asked again they are the same
+// place.
 TEST(FilmEquilibrium, RemembersTheCoefficientsOfEachSpeed) {
   const Model model = running_at(0.4, 300.0).model();
   const FilmEquilibrium equilibrium(model);
@@ -95,8 +96,8 @@ constexpr Row table[] = {{0.2,
 constexpr double differences =
     1e-4;  // what the table's coefficients are right to; they are to 2e-5
 
-/// Of a rigid rotor with coefficients in W / c and W / (c Omega), by the rule of Routh: the frequency at
-/// which it whirls at the threshold in (W / (m c))^(1/2), and that over the spin.
+/// Of a rigid rotor with coefficients in W / c and W / (c Omega), by the rule of Routh: the
+/// frequency at which it whirls at the threshold in (W / (m c))^(1/2), and that over the spin.
 ///
 ///   w^2 = (K_xx C_yy + K_yy C_xx - K_xy C_yx - K_yx C_xy) / (C_xx + C_yy)
 ///   (w / Omega)^2 = ((K_xx - w^2) (K_yy - w^2) - K_xy K_yx) / (C_xx C_yy - C_xy C_yx)
@@ -132,10 +133,10 @@ Campbell around(const MassOnFilm& rotor, double Omega) {
   return campbell(Assembler(linear_structure(rotor.model())), speeds, 4);
 }
 
-// The eccentricity falls along the diagram: at the threshold it is that of the row. Of its coefficients
-// follow threshold and whirl by Routh's rule. The last column is the whirl of the mode that whirls
-// fastest: at 0.2 and 0.4 that is the one at its threshold, at 0.6 and 0.7 the other one, which is
-// damped.
+// The eccentricity falls along the diagram: at the threshold it is that of the row. Of its
+// coefficients follow threshold and whirl by Routh's rule. The last column is the whirl of the mode
+// that whirls fastest: at 0.2 and 0.4 that is the one at its threshold, at 0.6 and 0.7 the other
+// one, which is damped.
 TEST(FilmEquilibrium, HasTheThresholdsOfTheTable) {
   for (const Row& row : table) {
     const auto [whirl, ratio] = whirl_at_threshold(row.K, row.C);
@@ -228,8 +229,8 @@ TEST(FilmEquilibrium, TellsSommerfeldsNumberAndThePower) {
   }
 }
 
-/// Journals at both ends of a light shaft with a disk, on equal films; a third bearing in the middle
-/// if it has a stiffness.
+/// Journals at both ends of a light shaft with a disk, on equal films; a third bearing in the
+/// middle if it has a stiffness.
 Model flexible(double k_middle = 0.0, double Omega = 300.0) {
   Model model;
   model.speed = Omega;
@@ -319,8 +320,8 @@ TEST(FilmEquilibrium, LeavesOutWhatIsNotToBeLinearized) {
   EXPECT_TRUE(static_study(model, Assembler(model.structure)).on_films.films.empty());
 }
 
-/// How much a small whirl in the least stable mode grows over 20 revolutions at a speed, above one or
-/// below.
+/// How much a small whirl in the least stable mode grows over 20 revolutions at a speed, above one
+/// or below.
 double growth(Model model, double Omega) {
   model.speed = Omega;
   const Scene scene = make_scene(model);
@@ -354,7 +355,8 @@ double growth(Model model, double Omega) {
   return largest() / before;
 }
 
-// What the diagram calls a threshold is one of motions: 1 % below whirls die out, 1 % above they grow.
+// What the diagram calls a threshold is one of motions: 1 % below whirls die out, 1 % above they
+// grow.
 void expect_threshold(const Model& model, double first, double last) {
   std::vector<double> speeds;
   for (int i = 0; i <= 20; ++i) speeds.push_back(first + (last - first) * i / 20);
@@ -415,8 +417,8 @@ TEST(FilmEquilibrium, RespondsToUnbalanceAsMotionsDo) {
   EXPECT_LT((moved - u->real()).cwiseAbs().maxCoeff(), 1e-3 * size);
 }
 
-// Of a symmetric rigid rotor both critical speeds lie where the frequency of the film's own stiffness
-// meets the speed.
+// Of a symmetric rigid rotor both critical speeds lie where the frequency of the film's own
+// stiffness meets the speed.
 TEST(FilmEquilibrium, HasCriticalSpeedsOfItsFilms) {
   const MassOnFilm rotor = running_at(0.6, 250.0);
   const Assembler assembler(linear_structure(rotor.model()));

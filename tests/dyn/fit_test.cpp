@@ -92,8 +92,8 @@ TEST(Fit, FindsStiffnessAndFrictionInNoise) {
   }
 }
 
-// From a clearance that no window's motion reaches nothing of the contact is told, so that a search alone
-// would stay where it is.
+// From a clearance that no window's motion reaches nothing of the contact is told, so that a search
+// alone would stay where it is.
 TEST(Fit, MovesAContactThatIsOutOfReach) {
   const Rig rig;
   const double truth = rig.truth.gap;
@@ -160,8 +160,9 @@ TEST(Fit, IsAsSureAsTheNoiseLetsItBe) {
                       0.02);
 }
 
-// A rotor that bounces in its ring and never settles to a period: all revolutions together tell the ring's stiffness,
-// and a gap of a hundredth of the noise between each two would keep a third of that back.
+// A rotor that bounces in its ring and never settles to a period: all revolutions together tell the
+// ring's stiffness, and a gap of a hundredth of the noise between each two would keep a third of
+// that back.
 TEST(Fit, IsAsSureOfARotorThatBounces) {
   const test::TwoDiskRub truth{
       .k = 8e6,

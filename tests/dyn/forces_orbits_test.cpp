@@ -85,7 +85,8 @@ TEST(MotionForces, OrbitsTellTheStartsOfAllRevolutions) {
   EXPECT_GT(distance(scene.contacts, orbit.states[0], orbit.states[1]), 1e-4);
 }
 
-// Orbits begin where forces do: what leads to them ends there, however many revolutions are left out.
+// Orbits begin where forces do: what leads to them ends there, however many revolutions are left
+// out.
 TEST(MotionForces, TransientsEndWhereForcesBeginAnew) {
   const Model model = rubbing({{.order = 0.5}});
   const Scene scene = make_scene(model);
@@ -189,8 +190,8 @@ Model without_unbalance(double Omega, std::vector<Force> forces) {
   return model;
 }
 
-// Alone a shaker makes a motion that repeats with it, spinning or not, and so do two in a simple ratio;
-// what has the frequency of the speed, or another ratio, makes a torus.
+// Alone a shaker makes a motion that repeats with it, spinning or not, and so do two in a simple
+// ratio; what has the frequency of the speed, or another ratio, makes a torus.
 TEST(MotionForces, OfTheirOwnFrequencyAloneArePeriodic) {
   using enum MotionKind;
   const auto kind = [](const Model& model) {
@@ -248,8 +249,8 @@ UnbalanceStudy response_to_twice(const Model& model, double first, double last) 
                          {.speeds = {first, last}, .has_given_speeds = false, .stations = {}});
 }
 
-// The peaks of an order are found where modes depend on the speed by oil films, and of free rotors: two
-// masses m on a spring k meet 2x at half of sqrt(2 k / m), damped.
+// The peaks of an order are found where modes depend on the speed by oil films, and of free rotors:
+// two masses m on a spring k meet 2x at half of sqrt(2 k / m), damped.
 TEST(MotionForces, HaveThePeaksOfTheirOrdersOnFilmsAndFree) {
   MassOnFilm rotor{};
   Model on_film = rotor.model();

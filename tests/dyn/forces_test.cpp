@@ -202,7 +202,8 @@ TEST(MotionForces, ConstantOnesAreInTheStart) {
   EXPECT_EQ(state.y.head(scene.contacts.coordinates()), equilibrium(scene.contacts));
 }
 
-// Tolerances are told by how far a slow force moves the rotor, not by what it would do to a free mass.
+// Tolerances are told by how far a slow force moves the rotor, not by what it would do to a free
+// mass.
 TEST(MotionForces, ThatAreSlowHaveTheScaleOfWhatTheyMove) {
   const Coupled still{.forces = {{.at = body("rotor"), .size = 50.0}}};
   const Coupled slow{.forces = {{.at = body("rotor"), .size = 50.0, .frequency = 1e-3}}};
@@ -224,7 +225,8 @@ TEST(MotionForces, OfAnOrderAreConstantAtRest) {
   EXPECT_EQ(rotor.scene().contacts.constant_load(), same.scene().contacts.constant_load());
 }
 
-// So does order 1, as the response to it at rest has it: a simulation from its equilibrium stays there.
+// So does order 1, as the response to it at rest has it: a simulation from its equilibrium stays
+// there.
 TEST(MotionForces, OfOrderOneAreConstantAtRest) {
   const Coupled rotor{.Omega = 0.0,
                       .forces = {{.at = body("rotor"), .size = 9.0, .order = 1.0, .phase = 1.0}}};
@@ -259,8 +261,8 @@ TEST(MotionForces, WidenTheBandOfAReduction) {
   EXPECT_EQ(band_at_rest(2.0 * own), 3.0 * own);
 }
 
-// A frequency that no lane could follow fails at its speed, by the name of its force; others of a study
-// go on.
+// A frequency that no lane could follow fails at its speed, by the name of its force; others of a
+// study go on.
 TEST(MotionForces, ThatAreTooFastFailAtTheirSpeed) {
   const auto model_at = [](std::span<const double> values) {
     return Coupled{

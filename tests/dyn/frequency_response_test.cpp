@@ -55,8 +55,8 @@ TEST(FrequencyResponse, AtAnUndampedResonanceIsUnbounded) {
   EXPECT_TRUE(std::isnan(found.pairs.at(0).receptance(0).real()));
 }
 
-// A free shaft has no place to come back to: at 0 Hz every response is infinite, whatever rounding has
-// left of the stiffness; numbers stood there before. At other frequencies it has one.
+// A free shaft has no place to come back to: at 0 Hz every response is infinite, whatever rounding
+// has left of the stiffness; numbers stood there before. At other frequencies it has one.
 TEST(FrequencyResponse, OfAFreeShaftIsUnboundedAtRest) {
   Structure s = test::two_disk(test::isotropic(1e7));
   s.bearings.clear();

@@ -1,5 +1,5 @@
-// Harmonic balance: closed forms of one harmonic, exponential convergence, and orbits of rotors with
-// every kind of force against shooting, with measured orders.
+// Harmonic balance: closed forms of one harmonic, exponential convergence, and orbits of rotors
+// with every kind of force against shooting, with measured orders.
 
 #include "libdyn/orbits/harmonic_balance.hpp"
 
@@ -189,9 +189,9 @@ TEST(HarmonicBalance, OfALinearRotorIsItsUnbalanceResponse) {
   }
 }
 
-// Multipliers of Mathieu's equation by Hill's method, stable, unstable and near the boundaries where
-// both are -1 (imaginary parts at the edges of the strip), against shooting; the trace is sharper than
-// multipliers where these meet.
+// Multipliers of Mathieu's equation by Hill's method, stable, unstable and near the boundaries
+// where both are -1 (imaginary parts at the edges of the strip), against shooting; the trace is
+// sharper than multipliers where these meet.
 TEST(Hill, HasTheMultipliersOfMathieusEquation) {
   for (const auto& [a, q] : {std::pair{1.0, 5.0},
                              {2.0, 5.0},
@@ -216,8 +216,8 @@ TEST(Hill, HasTheMultipliersOfMathieusEquation) {
   }
 }
 
-// The exponents of an isotropic rotor come twice, and each is found twice; modes far faster than ten
-// harmonics are there too.
+// The exponents of an isotropic rotor come twice, and each is found twice; modes far faster than
+// ten harmonics are there too.
 TEST(Hill, FindsExponentsThatIsotropyDoubles) {
   const test::TwoDiskRub rotor{.speed = 300.0, .modes = 8, .contact_nodes = {}};
   const Scene scene = rotor.scene();
@@ -231,9 +231,9 @@ TEST(Hill, FindsExponentsThatIsotropyDoubles) {
   EXPECT_LT(difference(exact.multipliers, hill.multipliers), 1e-4);  // what is left out is fainter
 }
 
-// Reference points of the rotor in its stator. Forces have kinks at touches, so that coefficients of
-// the motion fall as k^-4 and its error about as H^-4 (at a point in time, erratically); P3 touches all
-// the time and needs few harmonics.
+// Reference points of the rotor in its stator. Forces have kinks at touches, so that coefficients
+// of the motion fall as k^-4 and its error about as H^-4 (at a point in time, erratically); P3
+// touches all the time and needs few harmonics.
 TEST(HarmonicBalance, OfARubbingRotorConvergesToShooting) {
   const Scene p1 = test::P1.scene();
   const Errors errors =
@@ -318,10 +318,10 @@ std::vector<Rub> rubs() {
           {"reversals of slip", with_reversals(), 1, {10, 20, 40, 80}, 0.8, 0.7, 1e-4, 1e-3}};
 }
 
-// Every kind of contact against shooting, whose tangents carry saltation: orbit and multipliers. The
-// smoother the force is at a touch the higher is the order: about 3 for a kink, 6 for Hertz contact.
-// Where slip turns round friction jumps at an instant that the velocity says, whose series is poor
-// there: order 1.
+// Every kind of contact against shooting, whose tangents carry saltation: orbit and multipliers.
+// The smoother the force is at a touch the higher is the order: about 3 for a kink, 6 for Hertz
+// contact. Where slip turns round friction jumps at an instant that the velocity says, whose series
+// is poor there: order 1.
 TEST(HarmonicBalance, OfEveryContactConvergesToShooting) {
   for (const Rub& rub : rubs()) {
     SCOPED_TRACE(rub.name);

@@ -1,5 +1,5 @@
-// Branches by harmonic balance: folds of one harmonic in closed form, of many against shooting, and a
-// period doubling of the rotor in its stator.
+// Branches by harmonic balance: folds of one harmonic in closed form, of many against shooting, and
+// a period doubling of the rotor in its stator.
 
 #include "libdyn/branches/harmonic_branch.hpp"
 
@@ -115,9 +115,9 @@ std::shared_ptr<const HarmonicProblem> problem_of(const test::RotorStator& rotor
   return {both, &both->problem};
 }
 
-// The residual is a formula: at displacements that are held it goes straight with stiffness, friction and
-// unbalance, so that values far apart tell its slope. Rounding leaves the difference that branches take where
-// they know no slope nearly nine digits of it.
+// The residual is a formula: at displacements that are held it goes straight with stiffness,
+// friction and unbalance, so that values far apart tell its slope. Rounding leaves the difference
+// that branches take where they know no slope nearly nine digits of it.
 TEST(HarmonicBranch, HasEightDigitsOfTheDerivativeByTheParameter) {
   constexpr int harmonics = 20;
   constexpr double eight_digits = 1e-8;
@@ -152,7 +152,8 @@ TEST(HarmonicBranch, HasEightDigitsOfTheDerivativeByTheParameter) {
   }
 }
 
-// The rotor in its stator doubles its period as friction falls, contacts and all, where shooting says.
+// The rotor in its stator doubles its period as friction falls, contacts and all, where shooting
+// says.
 TEST(HarmonicBranch, FindsThePeriodDoublingOfARubbingRotor) {
   const auto at = [](double mu) {
     test::RotorStator p = test::P1;

@@ -34,10 +34,11 @@ struct Impact {
   }
 };
 
-/// An impact of a free mass at v on a damped Hertz spring at rest, m d'' = -k d^(3/2) (1 + b d') with
-/// b = (3/2) alpha, by quadrature in the plane of depth and rate:
+/// An impact of a free mass at v on a damped Hertz spring at rest, m d'' = -k d^(3/2) (1 + b d')
+/// with b = (3/2) alpha, by quadrature in the plane of depth and rate:
 ///
-///   (2/5) (k / m) d^(5/2) = int_{d'}^v s / (1 + b s) ds,   dt = -dd' / ((k / m) d^(3/2) (1 + b d'))
+///   (2/5) (k / m) d^(5/2) = int_{d'}^v s / (1 + b s) ds,   dt = -dd' / ((k / m) d^(3/2) (1 + b
+///   d'))
 ///
 /// @source [HuntCrossley1975]
 struct DampedImpact {
@@ -64,7 +65,8 @@ struct DampedImpact {
   }
   double depth(double work_left) const { return std::pow(2.5 * m / k * work_left, 0.4); }
   double largest_depth() const { return depth(work(v, v)); }
-  /// From the surface to rest or back: d' = end (1 - x^5) makes the integrand smooth at the surface.
+  /// From the surface to rest or back: d' = end (1 - x^5) makes the integrand smooth at the
+  /// surface.
   double time_from(double end) const {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < gauss().x.size(); ++i) {
@@ -163,7 +165,8 @@ TEST_P(HertzImpact, GivesBackWhatAQuadratureSays) {
   }
 }
 
-/// A heavy mass that shakes on a flat stop below it, so that it is torn off faster than 2 / (3 alpha).
+/// A heavy mass that shakes on a flat stop below it, so that it is torn off faster than 2 / (3
+/// alpha).
 ///
 /// @param force  of the unbalance [N]; the weight is 9.81 N
 Model shaken(double force) {

@@ -54,7 +54,8 @@ TEST(Identify, FindsAPureModeAsItself) {
   }
 }
 
-// With every dof the reduced rotor is the whole one; with few modes its own modes are what it moves in.
+// With every dof the reduced rotor is the whole one; with few modes its own modes are what it moves
+// in.
 TEST(Identify, ComparesWithTheModesOfTheReducedRotor) {
   const Model whole = two_disks();
   const Scene scene = make_scene(whole);

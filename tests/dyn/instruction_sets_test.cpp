@@ -98,9 +98,9 @@ TEST(InstructionSets, GiveTheSameExponents) {
   }
 }
 
-// Products are fused with sums on AVX2 and on AVX-512, every operation rounds as IEEE 754 says, and no
-// lane mixes with another: the bits of motions and exponents are the same, so that a study may be
-// computed on both.
+// Products are fused with sums on AVX2 and on AVX-512, every operation rounds as IEEE 754 says, and
+// no lane mixes with another: the bits of motions and exponents are the same, so that a study may
+// be computed on both.
 TEST(InstructionSets, AreTheSameBitByBitWhereBothFuse) {
   const std::vector<std::string> sets = instruction_sets();
   EXPECT_EQ(sets.back(), baseline_set);

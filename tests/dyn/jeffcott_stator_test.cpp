@@ -59,8 +59,8 @@ TEST(JeffcottStator, ContactBeginsWhereTheLinearResponseReachesTheGap) {
   EXPECT_GT(all[3].contacts[0].in_touch, 0.0);
 }
 
-// At mu = 0.1 and 100 MN/m the rotor stays in contact all around between 142.5 and 160 rad/s (paper:
-// 140 to 160), and bounces below.
+// At mu = 0.1 and 100 MN/m the rotor stays in contact all around between 142.5 and 160 rad/s
+// (paper: 140 to 160), and bounces below.
 TEST(JeffcottStator, RubsAllAroundAtMediumSpeeds) {
   std::vector<RotorStator> rotors;
   for (const double Omega : {136.0, 143.0, 150.0, 159.0}) {

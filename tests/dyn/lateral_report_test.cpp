@@ -86,8 +86,9 @@ TEST(LateralReport, HasThePeakOfAJeffcottRotorAndItsMargin) {
   EXPECT_EQ(margin.verdict, Verdict::passed);
 }
 
-// At a speed w times the critical one bearings move by e w^2 / ((1 - w^2)^2 + (2 zeta w)^2)^(1/2), peak
-// to peak twice as far; scaled to the limit, the wheel takes this share of what its sag m g / (2 k) leaves.
+// At a speed w times the critical one bearings move by e w^2 / ((1 - w^2)^2 + (2 zeta w)^2)^(1/2),
+// peak to peak twice as far; scaled to the limit, the wheel takes this share of what its sag m g /
+// (2 k) leaves.
 TEST(LateralReport, ScalesTheResponseToTheLimitForClearances) {
   const StiffRotor rotor;
   const LateralReport r = lateral_report(rotor.model(), options(8000.0, 9000.0)).report;
@@ -142,7 +143,8 @@ TEST(LateralReport, KnowsWhatCrossCouplingItBears) {
   EXPECT_NEAR(r.log_decrement, 0.4 * delta, 0.01 * delta);  // lambda is linear in Q but for Q^2
 }
 
-/// The same disk on a shaft that bends: on rigid supports it is critical at (48 E I / (L^3 m))^(1/2).
+/// The same disk on a shaft that bends: on rigid supports it is critical at (48 E I / (L^3
+/// m))^(1/2).
 struct BendingRotor : StiffRotor {
   Model model() const {
     Model model = StiffRotor::model();
@@ -154,8 +156,8 @@ struct BendingRotor : StiffRotor {
   }
 };
 
-// Q_0 / Q_A of 2 in region A, of 10 in B: where the speed ratio is above 2.69 - 0.0115 rho, or the gas
-// denser than 60 kg/m^3. Without a density it is told that it is missing.
+// Q_0 / Q_A of 2 in region A, of 10 in B: where the speed ratio is above 2.69 - 0.0115 rho, or the
+// gas denser than 60 kg/m^3. Without a density it is told that it is missing.
 TEST(LateralReport, AsksForMoreInRegionB) {
   const BendingRotor rotor;
   const double maximum = 2.2 * rotor.critical() / rpm;
@@ -184,8 +186,8 @@ TEST(LateralReport, AsksForMoreInRegionB) {
 }
 
 // With zeta = 0.4 the response to unbalance is highest at w = 1.213 and stays above 0.707 of that
-// beyond, where it goes to 1; below, at w_1 with 1 / w_1^2 = 1 - 2 zeta^2 + 2 zeta (1 - zeta^2)^(1/2).
-// The width is twice that side's, and the peak no critical speed.
+// beyond, where it goes to 1; below, at w_1 with 1 / w_1^2 = 1 - 2 zeta^2 + 2 zeta (1 -
+// zeta^2)^(1/2). The width is twice that side's, and the peak no critical speed.
 TEST(LateralReport, TellsAPeakOfOneSideAndOneThatIsCriticallyDamped) {
   StiffRotor rotor;
   const double zeta = 0.4;
@@ -247,8 +249,8 @@ TEST(LateralReport, FailsWhereARotorAtRestTouches) {
   EXPECT_EQ(check_of(wide, LateralRule::running_clearance).verdict, Verdict::passed);
 }
 
-// Bearings whose own cross-coupled stiffness is 1.2 times 2 c omega: the rotor is unstable without Q. It
-// fails, with nothing to spare, whether or not it is told what to expect.
+// Bearings whose own cross-coupled stiffness is 1.2 times 2 c omega: the rotor is unstable without
+// Q. It fails, with nothing to spare, whether or not it is told what to expect.
 TEST(LateralReport, FailsARotorThatIsUnstableWithoutQ) {
   const StiffRotor rotor;
   Model model = rotor.model();
@@ -268,9 +270,9 @@ TEST(LateralReport, FailsARotorThatIsUnstableWithoutQ) {
   EXPECT_EQ(check_of(r, LateralRule::coupling_ratio).verdict, Verdict::failed);
 }
 
-// Oil films keep the coefficients that they have without Q: with these frozen and Q_0 an eigenvalue is on
-// the axis. Q_0 as a link of the model bends the rotor at rest, too: its journals run elsewhere then, and
-// it is not at its border.
+// Oil films keep the coefficients that they have without Q: with these frozen and Q_0 an eigenvalue
+// is on the axis. Q_0 as a link of the model bends the rotor at rest, too: its journals run
+// elsewhere then, and it is not at its border.
 TEST(LateralReport, LeavesJournalsWhereTheyRunWithoutQ) {
   Model model = StiffRotor().model();
   model.structure.bearings.clear();
@@ -360,8 +362,8 @@ TEST(LateralReport, LooksAtTheProbesOfTheModel) {
   EXPECT_EQ(r.responses.size(), 1u);
 }
 
-// Two antinodes against each other have the load of their own journal each; one beyond the journals has
-// that of the nearest one.
+// Two antinodes against each other have the load of their own journal each; one beyond the journals
+// has that of the nearest one.
 TEST(LateralUnbalance, IsWhatTheJournalsCarryNextToEachAntinode) {
   Mesh mesh;
   mesh.z = {0.0, 1.0, 2.0, 3.0, 4.0};

@@ -1,5 +1,5 @@
-// Measured motions: pulses and phase of a key-phasor, stations from probes at any angles, what is noticed
-// of bad records, and modes that few probes cannot tell apart.
+// Measured motions: pulses and phase of a key-phasor, stations from probes at any angles, what is
+// noticed of bad records, and modes that few probes cannot tell apart.
 
 #include <gtest/gtest.h>
 
@@ -81,8 +81,8 @@ std::vector<double> pulses_but(const std::vector<int>& left_out, double extra) {
   return pulses;
 }
 
-// The clock is that of all pulses: where some are missing to the fourth power of an interval over the
-// time in which the speed changes.
+// The clock is that of all pulses: where some are missing to the fourth power of an interval over
+// the time in which the speed changes.
 TEST(TurnClock, PutsMissingPulsesBackAndLeavesExtraOnesOut) {
   std::vector<std::string> notes;
   const TurnClock all(pulses_but({}, 0.0), {}, notes);
@@ -218,8 +218,8 @@ TEST(MeasuredIdentification, NotesProbesThatSeeTheRotorTurnBackward) {
   EXPECT_TRUE(has_note(identify(model, make_scene(model), readings, {}).notes, "an angle or gain"));
 }
 
-// Probes at the rotor see nothing of a stator that it does not touch. Along one direction a backward and
-// a forward mode look alike.
+// Probes at the rotor see nothing of a stator that it does not touch. Along one direction a
+// backward and a forward mode look alike.
 TEST(MeasuredIdentification, SaysWhichModesTheProbesCannotTellApart) {
   const MeasuredIdentification found = SeenEllipse{}.found();
   ASSERT_EQ(found.auto_mac.rows(), 4);
@@ -356,8 +356,8 @@ struct RunUp {
   }
 };
 
-// Orders that do not change along a run-up are found exactly, whatever their number, as the least squares
-// know them all.
+// Orders that do not change along a run-up are found exactly, whatever their number, as the least
+// squares know them all.
 TEST(OrderTracking, FindsConstantOrdersOfARunUpExactly) {
   const Complex first = std::polar(3e-5, 0.7), second = std::polar(1e-5, -2.0),
                 half = std::polar(2e-5, 1.1);

@@ -115,8 +115,8 @@ SystemSlope slope(const Scene& scene, const Model& model, const Knob& knob) {
                   [&](double value) { return knob.set(model, value); });
 }
 
-/// Change of the end of a motion with the knobs turned as far as `by` says, of that: a difference of
-/// the fourth order.
+/// Change of the end of a motion with the knobs turned as far as `by` says, of that: a difference
+/// of the fourth order.
 Vec quad_change(const Rig& rig, const Scene& scene, const MotionState& start,
                 const std::vector<Knob>& knobs, const Vec& by) {
   const auto change = [&](double times) {
@@ -139,8 +139,8 @@ Vec quad_change(const Rig& rig, const Scene& scene, const MotionState& start,
   return (8.0 * change(1.0) - change(2.0)) / 12.0;
 }
 
-/// How far knobs are turned, of themselves: coefficients that are rounded to double leave 3e-11, and
-/// curvature of motions that are not wild less.
+/// How far knobs are turned, of themselves: coefficients that are rounded to double leave 3e-11,
+/// and curvature of motions that are not wild less.
 constexpr double turn = 0x1p-18;
 
 /// That a column is what it is alone, in another lane, bit by bit, and that the motion is, too.
@@ -156,8 +156,8 @@ void expect_same_alone(const ContactSystem& system, const MotionState& start, do
   }
 }
 
-/// Compares derivatives at the end, for all knobs turned together, each so that what it does adds up
-/// with what the first one does.
+/// Compares derivatives at the end, for all knobs turned together, each so that what it does adds
+/// up with what the first one does.
 MotionSlopes expect_differences(const Rig& rig, const std::vector<Knob>& knobs) {
   const Scene scene = make_scene(rig.model);
   const ContactSystem& system = scene.contacts;
@@ -216,8 +216,8 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesWithDampedContacts) {
   EXPECT_GE(jumps(found), 15);
 }
 
-// In contact for long, in few revolutions: quadruple precision takes its time near the surfaces of laws
-// that have no series there.
+// In contact for long, in few revolutions: quadruple precision takes its time near the surfaces of
+// laws that have no series there.
 TEST(MotionSlopes, AreTheLimitOfDifferencesOfHertzContacts) {
   RotorStator p = test::P1;
   p.kH = 1.5e8;
@@ -401,7 +401,8 @@ TEST(MotionSlopes, OfTwoWindowsMakeThoseOfOne) {
   }
 }
 
-// At a fixed time the rotor has turned further with the speed:  y_p|time = y_p|phase + t y' / Omega.
+// At a fixed time the rotor has turned further with the speed:  y_p|time = y_p|phase + t y' /
+// Omega.
 TEST(MotionSlopes, AtFixedTimeAndAtFixedPhaseDifferByHowFarItTurns) {
   const DampedImpacts m;
   const ContactSystem& system = m.scene.contacts;
@@ -505,8 +506,8 @@ TEST(MotionSlopes, SayWhereAGrazeIs) {
   EXPECT_TRUE(with_clearance(a * (1.0 + margin), 0.0).grazes.empty());
 }
 
-// Between these radii a contact that slides ceases to stop on its way: just there its slip comes down
-// to zero and goes up again.
+// Between these radii a contact that slides ceases to stop on its way: just there its slip comes
+// down to zero and goes up again.
 TEST(MotionSlopes, SayWhereSlipAllButStops) {
   RotorStator p{.Omega = 151.8462, .kC = 3.07445e6, .mu = 0.5, .R = 0.005};
   MotionState start;

@@ -1,5 +1,5 @@
-// Modes of multipliers: without contact each multiplier is e^(lambda T) of one mode, and its direction
-// is that mode.
+// Modes of multipliers: without contact each multiplier is e^(lambda T) of one mode, and its
+// direction is that mode.
 
 #include "libdyn/orbits/multiplier_modes.hpp"
 

@@ -50,8 +50,8 @@ double V(double u) {
 //
 //   m C e'' = -2 s e' V'(e)   =>   m C e' = m C v - 2 s (V(e) - V(0))
 //
-// with s = viscosity R L^3 / (4 C^2). It creeps to where this is zero, with a mass that makes it creep
-// at 40 / s; thrown hard, that is near the wall.
+// with s = viscosity R L^3 / (4 C^2). It creeps to where this is zero, with a mass that makes it
+// creep at 40 / s; thrown hard, that is near the wall.
 TEST(OilFilm, StopsAThrownJournalWhereTheImpulseSays) {
   const auto expect_stop = [](double e, const AnyMethod& method) {
     MassOnFilm rotor{.Omega = 0.0, .gravity = 0.0};
@@ -74,7 +74,8 @@ TEST(OilFilm, StopsAThrownJournalWhereTheImpulseSays) {
     expect_stop(0.9975, method);
 }
 
-// Ocvirk's bearing: the weight and the eccentricity at which it lies, below to the side of the spin.
+// Ocvirk's bearing: the weight and the eccentricity at which it lies, below to the side of the
+// spin.
 TEST(OilFilm, CarriesAJournalWhereTheTextbookSays) {
   for (const double e : {0.05, 0.5, 0.95}) {
     MassOnFilm rotor;
@@ -96,8 +97,8 @@ TEST(OilFilm, CarriesAJournalWhereTheTextbookSays) {
   }
 }
 
-// A shaft of finite elements, reduced to few shapes, that nothing but two films holds: both carry half
-// of its weight, and it starts there.
+// A shaft of finite elements, reduced to few shapes, that nothing but two films holds: both carry
+// half of its weight, and it starts there.
 TEST(OilFilm, CarriesAReducedShaft) {
   Model model;
   model.speed = 300.0;
@@ -163,8 +164,8 @@ struct Agreement {
   double tolerance, bound;
 };
 
-// Two films and two rubbing disks, 1/1: every method against quadruple precision, whose own error is
-// shown by another order and tolerance.
+// Two films and two rubbing disks, 1/1: every method against quadruple precision, whose own error
+// is shown by another order and tolerance.
 TEST(OilFilm, MovesTheTwoDisksAlikeByEveryMethod) {
   const TwoDisksOnFilms rotor;
   const Scene scene = rotor.scene();
@@ -287,7 +288,8 @@ TEST(OilFilm, HasTheTangentOfItsMotions) {
   }
 }
 
-// The exponents sum to the mean divergence of the flow, of which the films have a part of their own.
+// The exponents sum to the mean divergence of the flow, of which the films have a part of their
+// own.
 TEST(OilFilm, HasExponentsThatSumToTheDivergence) {
   const TwoDisksOnFilms rotor;
   const Scene scene = rotor.scene();
@@ -407,8 +409,9 @@ Rub carried_to(double Omega, MotionState& state, long revolutions) {
   return {t.contacts[0].impacts / 16.0, t.contacts[0].in_touch / (16.0 * scene.contacts.period())};
 }
 
-// "Double-rotor system under the coupling of rubbing and oil-film force", found with the usual set of
-// data by an independent program: no rub at 200 rad/s, the rub begins at 334.6, at 460 one impact a revolution, duty cycle 0.109.
+// "Double-rotor system under the coupling of rubbing and oil-film force", found with the usual set
+// of data by an independent program: no rub at 200 rad/s, the rub begins at 334.6, at 460 one
+// impact a revolution, duty cycle 0.109.
 TEST(TwoDisksOnFilms, RubAsAnIndependentProgramFindsOnTheWayUp) {
   constexpr double digits = 1e-3;  // of its duty cycle
   MotionState state;
@@ -420,8 +423,8 @@ TEST(TwoDisksOnFilms, RubAsAnIndependentProgramFindsOnTheWayUp) {
   EXPECT_NEAR(rub.duty, 0.109, digits);
 }
 
-// At 660 rad/s three impacts in four revolutions, at 705 six in eight (printed); duty cycle 0.089, of the
-// independent program.
+// At 660 rad/s three impacts in four revolutions, at 705 six in eight (printed); duty cycle 0.089,
+// of the independent program.
 TEST(TwoDisksOnFilms, RubInFourAndInEightRevolutions) {
   constexpr double digits = 1e-3;
   MotionState state;

@@ -15,8 +15,8 @@
 
 namespace whirl::orbit_measure_test {
 
-// Off its stator the rotor turns in a circle of radius r = e W^2 / |w^2 - W^2 + 2 i d W| around its sag;
-// a revolution takes the work 2 pi c W r^2 of its damper.
+// Off its stator the rotor turns in a circle of radius r = e W^2 / |w^2 - W^2 + 2 i d W| around its
+// sag; a revolution takes the work 2 pi c W r^2 of its damper.
 TEST(OrbitMeasure, GivesTheWorkOfACircle) {
   test::RotorStator p = test::P1;
   p.Omega = 110.0;

@@ -77,7 +77,8 @@ TEST(OrbitSearch, IsTheSameInThreadsAndRanks) {
   }
 }
 
-// A search that is stopped has what so many starts lead to, whatever later ones have found meanwhile.
+// A search that is stopped has what so many starts lead to, whatever later ones have found
+// meanwhile.
 TEST(OrbitSearch, StoppedItHasWhatItsFirstStartsLedTo) {
   const test::RotorStator rotor{.Omega = 138.4, .kC = 64e6, .mu = 0.11};
   const Scene scene = rotor.scene();
@@ -138,7 +139,8 @@ TEST(FoundOrbit, IsTheSameByBothMethods) {
                 .head(scene.contacts.coordinates())
                 .lpNorm<Eigen::Infinity>(),
             truncated);
-  // the amplitude of all points at order 1 is that of the states' displacements but for sag and rest
+  // the amplitude of all points at order 1 is that of the states' displacements but for sag and
+  // rest
   EXPECT_EQ(series.series->orders(1), 1.0);
   EXPECT_EQ(series.series->amplitudes.rows(), scene.displacement_map().rows());
 }

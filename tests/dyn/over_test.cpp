@@ -69,8 +69,8 @@ TEST(ModesOver, CrossCouplingTakesTheDampingOfAJeffcottRotor) {
   EXPECT_EQ(found.thresholds[0].branch, is_first ? 0 : 1);
 }
 
-// Where only whole steps make a model, as with a number of elements, the threshold is on the straight
-// line between its neighbors; nothing between them is told as left out.
+// Where only whole steps make a model, as with a number of elements, the threshold is on the
+// straight line between its neighbors; nothing between them is told as left out.
 TEST(ModesOver, AThresholdBetweenModelsThatAreNoneIsOnTheLine) {
   constexpr double step = 750.0, solves = 1e-9;
   const ModelAt at = [](double q) {
@@ -184,7 +184,8 @@ TEST(ModesOver, AValueThatCannotBeComputedIsAGap) {
   EXPECT_TRUE(std::isfinite(found.branches[0].frequency(2)));
 }
 
-// A bearing that moves along the shaft changes the nodes of the mesh: 9 where it is at one, else 10.
+// A bearing that moves along the shaft changes the nodes of the mesh: 9 where it is at one,
+// else 10.
 TEST(ModesOver, FollowsModesThroughMeshesThatDiffer) {
   const Model model = flexible(1e6);
   const ModelAt at = [](double value) { return flexible(1e6, value); };

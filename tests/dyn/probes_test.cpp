@@ -148,8 +148,9 @@ TEST(Probes, AreEndsOfFrequencyResponses) {
   }
 }
 
-// A face on springs against tilts, under an overturning moment about x: theta_x = M / kt at rest, and
-// M / (kt - Id w^2 + i ct w) where the moment oscillates. The probe reads r (theta_x sin a - theta_y cos a).
+// A face on springs against tilts, under an overturning moment about x: theta_x = M / kt at rest,
+// and M / (kt - Id w^2 + i ct w) where the moment oscillates. The probe reads r (theta_x sin a -
+// theta_y cos a).
 TEST(Probes, AxialOnesReadTheTiltsOfAFace) {
   constexpr double kt = 5e3, ct = 3.0, Id = 0.02, M = 7.0, r = 0.15, Omega = 80.0;
   const Station rotor = test::body("rotor");
@@ -189,7 +190,8 @@ TEST(Probes, AxialOnesReadTheTiltsOfAFace) {
     EXPECT_NEAR(told[i].peak_to_peak, 2.0 * seen[i] * std::abs(theta), 0.01 * r * std::abs(theta));
   }
 
-  // a force along z on the face at the probe is a moment, so a response from it to itself is r^2 / (...)
+  // a force along z on the face at the probe is a moment, so a response from it to itself is r^2 /
+  // (...)
   const std::vector<ResponseEnd> top = select_ends(model, assembler, "top");
   const Complex own =
       frequency_response(assembler, Omega, {100.0}, top, top).pairs.at(0).receptance(0);

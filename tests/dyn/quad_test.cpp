@@ -99,8 +99,8 @@ TEST(Quad, IsConsistentWithSticking) {
   EXPECT_GT(a.contacts[0].sticking, 0.8 * motion.scene.contacts.period());
 }
 
-// Friction that sticks and slides anew several times in a revolution. Where sticking ends, the force
-// is at its limit: what happens there can only be told from all digits.
+// Friction that sticks and slides anew several times in a revolution. Where sticking ends, the
+// force is at its limit: what happens there can only be told from all digits.
 TEST(Quad, IsConsistentWithStickingThatEnds) {
   const RotorStator p{.Omega = 120.0, .kC = 3e6, .mu = 0.3, .gap = 1e-3, .R = 1e-3};
   const Motion motion(p, 100);
@@ -140,8 +140,8 @@ TEST(Quad, GoesOnWithAllDigits) {
   EXPECT_LT(distance(parts, whole), 1e-28);
 }
 
-// The tangent comes from the same template: it agrees with that of double, whose state is rounded to
-// 1e-14 of the length scale, which turns the tangent by a thousand times as much.
+// The tangent comes from the same template: it agrees with that of double, whose state is rounded
+// to 1e-14 of the length scale, which turns the tangent by a thousand times as much.
 TEST(Quad, CarriesTangents) {
   const Motion motion(test::P1);
   const BatchOptions options{.tolerance = 1e-16, .order = 12, .tangent = true};

@@ -102,8 +102,8 @@ double error(const Vec& slope, const Vec& exact, const Vec& scale) {
   return (slope - exact).cwiseQuotient(scale).norm() / exact.cwiseQuotient(scale).norm();
 }
 
-// Impacts let errors of the motion grow: nine digits are left in doubles, or ten. Those of differences
-// are noise of the motions, or of their curvature.
+// Impacts let errors of the motion grow: nine digits are left in doubles, or ten. Those of
+// differences are noise of the motions, or of their curvature.
 TEST(RangeSlopes, AreThoseOfMotionsInQuadruplePrecision) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
@@ -121,7 +121,8 @@ TEST(RangeSlopes, AreThoseOfMotionsInQuadruplePrecision) {
   }
 }
 
-// Neighbors of the value itself say the same slopes of all numbers; of a ring that is not met, zero.
+// Neighbors of the value itself say the same slopes of all numbers; of a ring that is not met,
+// zero.
 TEST(RangeSlopes, AreThoseOfNeighbors) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);

@@ -1,5 +1,5 @@
-// Studies that several processes share, here threads: the same to the last bit whatever ranks and threads,
-// errors and stops of others, and one that is lost.
+// Studies that several processes share, here threads: the same to the last bit whatever ranks and
+// threads, errors and stops of others, and one that is lost.
 
 #include <atomic>
 
@@ -15,7 +15,8 @@ namespace whirl::dyn_ranks_test {
 using test::expect_same_points;
 using test::in_ranks;
 
-/// What a study finds in ranks and alone must be the same, and not the leader alone may have worked on it.
+/// What a study finds in ranks and alone must be the same, and not the leader alone may have worked
+/// on it.
 template <class Result, class Options>
 void expect_same_in_ranks(Result (*study)(const StudyModels&, const Options&,
                                           const Monitor<Result>&, Result),
@@ -130,8 +131,8 @@ TEST(StudyRanks, AWrongModelElsewhereEndsTheStudy) {
   EXPECT_EQ(saved, 36u);
 }
 
-// A process that is asked to stop alone, as by a signal, stops all; what is done is kept, and the study
-// goes on from there to the same end.
+// A process that is asked to stop alone, as by a signal, stops all; what is done is kept, and the
+// study goes on from there to the same end.
 TEST(StudyRanks, WhoIsStoppedStopsAll) {
   MapOptions options = test::plane(1);
   for (int i = 0; i < 100; ++i) options.grid.axes[0].push_back(142.0 + 0.1 * i);
@@ -162,8 +163,8 @@ struct Counted {
   PointRows<int> points;
 };
 
-// A piece in whose preparation the leader is stopped is not kept, as it was given something half done; also
-// where it would be computed in a process that was not told yet.
+// A piece in whose preparation the leader is stopped is not kept, as it was given something half
+// done; also where it would be computed in a process that was not told yet.
 TEST(StudyRanks, WhatWasStoppedWhilePreparedIsNotKept) {
   constexpr std::size_t pieces = 10, stopped = 3;
   const Counted result = in_ranks(2, [&](const Ranks& ranks) {
@@ -186,8 +187,8 @@ TEST(StudyRanks, WhatWasStoppedWhilePreparedIsNotKept) {
   }
 }
 
-// A process that began and then says nothing: the leader does its own pieces, waits, saves and says which
-// rank is lost.
+// A process that began and then says nothing: the leader does its own pieces, waits, saves and says
+// which rank is lost.
 TEST(StudyRanks, ALostRankEndsTheStudyWithAMessage) {
   test::Post post(2);
   post.ranks(1).send({0, LetterKind::ready, packed(1)});

@@ -115,8 +115,8 @@ struct Overhung {
   }
 };
 
-// Two probes at a spinning disk see its four modes, backward and forward in turn: shapes are complex,
-// and their sense of whirl is that of the model.
+// Two probes at a spinning disk see its four modes, backward and forward in turn: shapes are
+// complex, and their sense of whirl is that of the model.
 TEST(RunningModes, TellForwardFromBackwardWhirl) {
   const Overhung rotor(900.0);
   const std::vector<Complex> expected = rotor.eigenvalues();

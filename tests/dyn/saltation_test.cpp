@@ -1,5 +1,6 @@
 // Events of friction, each against what defines it: the gradient of a slip velocity against
-// differences, the jump against the accelerations, the limit of sticking against a weight on a wall.
+// differences, the jump against the accelerations, the limit of sticking against a weight on a
+// wall.
 
 #include "libdyn/system/saltation.hpp"
 
@@ -44,7 +45,8 @@ Vec gradient_by_differences(const ContactSystem& system, EventKind kind, const V
 constexpr double differences = 1e-8;
 constexpr double rounding = 1e-12;
 
-/// A rotor deep in a ring about another center, turning and receding: every term of the slip counts.
+/// A rotor deep in a ring about another center, turning and receding: every term of the slip
+/// counts.
 Vec deep(const RotorStator& p) {
   Vec y(8);
   y << 4.6e-3, 4.3e-3, 1e-4, -2e-4, 7.0, -6.0, -0.3, 0.2;
@@ -128,8 +130,8 @@ TEST(StickLimit, IsTheFrictionCoefficientTimesTheNormalForce) {
   }
 }
 
-// Pressed to the bottom of a ring by its weight and shaken by its unbalance, a mass sticks and slips
-// in turns. Each time it slips, friction had reached mu N, and no more, in every method.
+// Pressed to the bottom of a ring by its weight and shaken by its unbalance, a mass sticks and
+// slips in turns. Each time it slips, friction had reached mu N, and no more, in every method.
 TEST(StickLimit, IsReachedWheneverStickingEnds) {
   constexpr double located = 1e-7;  // of the limit: an event's place, to the tolerance of a step
   const MassInRing p{.Omega = 60.0,

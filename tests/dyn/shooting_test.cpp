@@ -70,7 +70,8 @@ TEST(Shooting, MultipliersOfMathieusEquationMeetAtItsBoundaries) {
   EXPECT_NEAR(std::abs(multipliers(2.0)(0)), 1.0, 1e-11);  // between a_1 and b_2: stable
 }
 
-// What a step of Newton's method leaves goes with the square of the distance from the orbit: order 2.
+// What a step of Newton's method leaves goes with the square of the distance from the orbit:
+// order 2.
 TEST(Shooting, ConvergesQuadratically) {
   const Flow flow = test::Duffing{.zeta = 0.1, .F = 1.0, .w = 2.0}.flow();
   const PeriodicOrbit orbit = find_orbit(flow, Vec(Vec::Zero(2)), {});

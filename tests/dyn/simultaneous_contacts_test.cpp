@@ -6,7 +6,8 @@
 
 namespace whirl::simultaneous_contacts_test {
 
-// Two equal masses in equal rings, started alike: each does what it does alone, with all events twice.
+// Two equal masses in equal rings, started alike: each does what it does alone, with all events
+// twice.
 TEST(SimultaneousContacts, AreEachWhatTheyAreAlone) {
   const test::MassInRing single{.c = 100.0, .U = 2e-3, .mu = 0.1, .R = 0.01, .gravity = 9.81};
   const Model alone = single.model();

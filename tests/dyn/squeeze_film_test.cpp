@@ -115,8 +115,8 @@ TEST(SqueezeFilmMotion, KeepsFormulasApartInABatch) {
   }
 }
 
-// In its middle a damper is one of C = pi viscosity R (L/c)^3 (half: of that), as K + i Omega C with
-// e = 0: (k - m w^2 + i w C) = 0.
+// In its middle a damper is one of C = pi viscosity R (L/c)^3 (half: of that), as K + i Omega C
+// with e = 0: (k - m w^2 + i w C) = 0.
 TEST(SqueezeFilmMotion, DampsModesFromTheMiddle) {
   for (const Squeeze& law : laws()) {
     const Damped rotor{.law = law, .m = 500.0};

@@ -77,8 +77,8 @@ struct Rig {
                           return other.model();
                         });
   }
-  /// What is told at most by a motion that repeats after some revolutions: its start follows from the
-  /// parameters, y0_p = (I - Phi)^-1 psi.
+  /// What is told at most by a motion that repeats after some revolutions: its start follows from
+  /// the parameters, y0_p = (I - Phi)^-1 psi.
   Vec least_deviations(int period) const {
     const FitSystem system = source(exact, free(1.0)).system_at(values());
     std::vector<double> at = times(period);
@@ -256,8 +256,8 @@ void expect_least_errors(const Rig& rig, int period) {
     }
   }
   EXPECT_NEAR(squares / (3.0 * seeds), 1.0, chance * std::sqrt(2.0 / (3.0 * seeds)));
-  // the noise is known from its scatter, to one in a hundred; near a period doubling the deviation is
-  // a sixth more or less according to the stiffness that is found
+  // the noise is known from its scatter, to one in a hundred; near a period doubling the deviation
+  // is a sixth more or less according to the stiffness that is found
   for (const double ratio : mean) EXPECT_NEAR(ratio, 1.0, 0.05);
 }
 
@@ -293,8 +293,8 @@ TEST(SteadyFit, FindsOffsets) {
   }
 }
 
-// Without weight a permanent rub is a circle: it says how hard the ring pushes and rubs, not how much
-// of that is stiffness and how much clearance.
+// Without weight a permanent rub is a circle: it says how hard the ring pushes and rubs, not how
+// much of that is stiffness and how much clearance.
 TEST(SteadyFit, SaysWhatAFullRubCannotTell) {
   const Rig rig{.truth = {.Omega = 151.0, .kC = 50e6, .mu = 0.05, .gravity = 0.0}};
   const auto free = rig.free(1.0);

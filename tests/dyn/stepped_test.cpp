@@ -26,8 +26,8 @@ Trajectory stepped(const Scene& scene, const Model& model, long transient, long 
   return one[0];
 }
 
-// Without contact the largest exponent is the rotor's damping, -c / 2 m, and the sum of all is the divergence
-// of both masses.
+// Without contact the largest exponent is the rotor's damping, -c / 2 m, and the sum of all is the
+// divergence of both masses.
 TEST(Stepped, CopiesOfAFreeMotionHaveItsDamping) {
   const RotorStator p{.Omega = 100.0};
   const Trajectory t = stepped(p.scene(), p.model(), 0, 60, 1000);
@@ -54,9 +54,9 @@ TEST(Stepped, HasTheExponentsOfTangentsWhereContactIsPermanent) {
   EXPECT_EQ(t.contacts[0].impacts, 0.0);
 }
 
-// At 150 rad/s, 100 MN/m and friction 0.12 the motion is a torus. A thousand steps a revolution make chaos
-// of it, which gets weaker as they get smaller: largest exponents of an independent program over 3000
-// revolutions are 9.9, 6.1 and 3.2 1/s with 1000, 2000 and 4000 steps.
+// At 150 rad/s, 100 MN/m and friction 0.12 the motion is a torus. A thousand steps a revolution
+// make chaos of it, which gets weaker as they get smaller: largest exponents of an independent
+// program over 3000 revolutions are 9.9, 6.1 and 3.2 1/s with 1000, 2000 and 4000 steps.
 TEST(Stepped, StepsMakeChaosOfATorus) {
   const RotorStator p{.Omega = 150.0, .kC = 100e6, .mu = 0.12};
   const Scene scene = p.scene();
@@ -79,8 +79,8 @@ TEST(Stepped, StepsMakeChaosOfATorus) {
   EXPECT_LT(fine, 0.7 * coarse);
 }
 
-// It is the motion that is chaotic, not an exponent of it that is taken wrongly: copies part from it at
-// the same rate whatever the distance that they begin with.
+// It is the motion that is chaotic, not an exponent of it that is taken wrongly: copies part from
+// it at the same rate whatever the distance that they begin with.
 TEST(Stepped, CopiesPartAtOneRateWhateverTheirDistance) {
   const RotorStator p{.Omega = 150.0, .kC = 100e6, .mu = 0.12};
   const Scene scene = p.scene();

@@ -172,7 +172,8 @@ TEST_P(StopInMethod, DrawsAMassAlongUntilItSticks) {
   EXPECT_LT(missed(p, start, expected, 1, how(), 0.0), 1e2 * accuracy());
 }
 
-// ---- orbits --------------------------------------------------------------------------------------
+// ---- orbits
+// --------------------------------------------------------------------------------------
 
 /// exp(A t) of x'' + 2 d x' + w2 x = 0.
 Mat2 flow(double d, double w2, double t) {
@@ -281,8 +282,8 @@ Mat tangent_by_differences(const Scene& scene, const Vec& y) {
   return columns;
 }
 
-// Every kind of friction and law: forward, creeping, switching (reversals, sticking), damped, Hertz,
-// damped Hertz.
+// Every kind of friction and law: forward, creeping, switching (reversals, sticking), damped,
+// Hertz, damped Hertz.
 TEST(Stop, HasTheTangentsOfDifferences) {
   const MassAtStop base{.Omega = 9.0, .c = 4.0, .U = 4e-3, .R = 0.01, .offset = {2e-4, -1e-4}};
   std::vector<MassAtStop> cases(6, base);

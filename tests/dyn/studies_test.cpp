@@ -1,5 +1,5 @@
-// Maps, sweeps and basins as values, without files: what a point finds alone, whatever the threads, and
-// going on where they were stopped.
+// Maps, sweeps and basins as values, without files: what a point finds alone, whatever the threads,
+// and going on where they were stopped.
 
 #include "tests/support/studies.hpp"
 
@@ -154,8 +154,8 @@ TEST(Map, KeepsGoingWherePointsFail) {
   }
 }
 
-// Above the speeds at which a rotor at rest begins to rub, two motions coexist; every start that has
-// settled is in one basin.
+// Above the speeds at which a rotor at rest begins to rub, two motions coexist; every start that
+// has settled is in one basin.
 TEST(Basins, CountsEveryStartOnce) {
   StudyModels models =
       study_models([](std::span<const double>) { return RotorStator{.Omega = 170.0}.model(); });

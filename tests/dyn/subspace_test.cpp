@@ -15,7 +15,8 @@ constexpr double pi = std::numbers::pi;
 
 /// Covariances of a chain under white noise on its modes, which are independent of each other:
 ///
-///   R_k = sum over j of phi_j phi_j^T e^(-zeta w t) (cos w_d t + zeta / sqrt(1 - zeta^2) sin w_d t)
+///   R_k = sum over j of phi_j phi_j^T e^(-zeta w t) (cos w_d t + zeta / sqrt(1 - zeta^2) sin w_d
+///   t)
 OutputProducts exact_covariances(const test::MassChain& chain, double zeta, double spacing,
                                  int lags) {
   OutputProducts products{{}, 1.0};
@@ -32,8 +33,8 @@ OutputProducts exact_covariances(const test::MassChain& chain, double zeta, doub
   return products;
 }
 
-// From exact covariances all modes come back exactly, at the order of the system; beyond it there are
-// no directions left.
+// From exact covariances all modes come back exactly, at the order of the system; beyond it there
+// are no directions left.
 TEST(Subspace, FindsAllModesInExactCovariances) {
   constexpr double exact = 1e-7;  // digits that a SVD with singular values down to 1e-9 leaves
   const double zeta = 0.02, spacing = 0.05;

@@ -1,5 +1,5 @@
-// Second derivatives of motions: slopes of deviations, against differences of exact tangents, in quadruple
-// precision unless that takes seconds.
+// Second derivatives of motions: slopes of deviations, against differences of exact tangents, in
+// quadruple precision unless that takes seconds.
 
 #include <gtest/gtest.h>
 

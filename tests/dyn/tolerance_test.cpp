@@ -119,8 +119,8 @@ TEST(Tolerance, BoundsTheErrorOfArkodeDirkOverEvents) {
   }
 }
 
-// A tighter tolerance costs more steps: at order 8 (DOP853), ten times the accuracy takes 1.33 times as many
-// where steps are not cut short by events.
+// A tighter tolerance costs more steps: at order 8 (DOP853), ten times the accuracy takes 1.33
+// times as many where steps are not cut short by events.
 TEST(Tolerance, CostsStepsAsTheOrderSays) {
   const Reference& r = references()[2];
   std::vector<double> tolerances{1e-6, 1e-8, 1e-10, 1e-12}, steps;

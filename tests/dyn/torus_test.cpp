@@ -69,8 +69,8 @@ TEST(InvariantCircle, NeedsAMotion) {
   EXPECT_THROW(guessed_circle(Mat::Ones(2, 100), Vec::Ones(2), 1, 8), OptionError);
 }
 
-// Harmonics of the circle fall off exponentially: the rotation at K is wrong by less and less, and it is
-// that of a simulation of 20 000 iterations, averaged with smooth weights.
+// Harmonics of the circle fall off exponentially: the rotation at K is wrong by less and less, and
+// it is that of a simulation of 20 000 iterations, averaged with smooth weights.
 TEST(InvariantCircle, ConvergesToTheSimulation) {
   const Flow flow = delayed_logistic(2.1);
   const Mat many = sections(flow, Vec{{0.5, 0.6}}, 2000, 20000);

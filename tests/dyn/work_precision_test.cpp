@@ -64,8 +64,8 @@ TEST(WorkPrecision, BigSystemsHaveAReferenceInDouble) {
   EXPECT_EQ(reference_motion(scene.contacts, start, 4).made_by, "dop853 at 1e-15");
 }
 
-// At 146 rad/s the rotor and stator move chaotically: what a reference in double knows is lost after
-// 100 revolutions, and it says so.
+// At 146 rad/s the rotor and stator move chaotically: what a reference in double knows is lost
+// after 100 revolutions, and it says so.
 TEST(WorkPrecision, ChaosLimitsTheReference) {
   test::RotorStator p = test::P4;
   p.Omega = 146.0;

@@ -9,8 +9,8 @@
 
 namespace whirl::antinodes_test {
 
-// A uniform shaft, slender enough, between rigid bearings: sin(n pi z / L), antinodes at (2 i - 1) L / (2 n), each
-// against its neighbors. 24 elements have a node at each of them for n = 1, 2, 3.
+// A uniform shaft, slender enough, between rigid bearings: sin(n pi z / L), antinodes at (2 i - 1)
+// L / (2 n), each against its neighbors. 24 elements have a node at each of them for n = 1, 2, 3.
 TEST(Antinodes, OfAUniformShaftAreThoseOfSines) {
   constexpr double L = 2.0;
   const Structure s = test::pinned(test::cylinder(L, 0.05, 24));

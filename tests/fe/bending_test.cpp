@@ -70,7 +70,8 @@ TEST(BendingLine, JumpsAtBearingsAsTheLeverSays) {
 }
 
 // Shear force and moment follow from equilibrium alone: a cone of length L with its thin end free,
-// diameter d(z) = d0 (1 - z / l), has the weight to the right of z, g rho pi d0^2 (l / 12) ((1 - z / l)^3
+// diameter d(z) = d0 (1 - z / l), has the weight to the right of z, g rho pi d0^2 (l / 12) ((1 - z
+// / l)^3
 // - (1 - L / l)^3), whatever its stiffness and however fine the mesh.
 TEST(BendingLine, OfAConicalCantileverIsInEquilibriumWithItsWeight) {
   const double L = 0.8, d0 = 0.1, d1 = 0.04, l = L * d0 / (d0 - d1);

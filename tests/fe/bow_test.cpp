@@ -11,8 +11,8 @@ namespace whirl::bow_test {
 
 using namespace test;
 
-// Through supports and the middle the natural cubic spline is the line of a beam under a load there:
-// r (3 s - 4 s^3), s = z / L up to the middle, and straight beyond the supports.
+// Through supports and the middle the natural cubic spline is the line of a beam under a load
+// there: r (3 s - 4 s^3), s = z / L up to the middle, and straight beyond the supports.
 TEST(Bow, IsTheElasticLineBetweenItsPoints) {
   const double L = 0.8, r = 2e-4;
   const Bow bow{.z = {0.0, L / 2.0, L}, .x = {0.0, r, 0.0}, .y = {0.0, -2.0 * r, 0.0}};
@@ -57,7 +57,8 @@ struct Jeffcott {
   }
 };
 
-// [Nicholas1976], eq. (4): m u'' + c u' + k u = (m e Omega^2 e^(i phase) + k r e^(i angle)) e^(i Omega t)
+// [Nicholas1976], eq. (4): m u'' + c u' + k u = (m e Omega^2 e^(i phase) + k r e^(i angle)) e^(i
+// Omega t)
 TEST(Bow, OfAJeffcottRotorRespondsAsInClosedForm) {
   Jeffcott jeffcott;
   const Structure s = jeffcott.structure();
@@ -78,7 +79,8 @@ TEST(Bow, OfAJeffcottRotorRespondsAsInClosedForm) {
   }
 }
 
-// At rest nothing else acts: the shaft is where its bow has it, at every node, whatever it consists of.
+// At rest nothing else acts: the shaft is where its bow has it, at every node, whatever it consists
+// of.
 TEST(Bow, IsTheDeflectionAtRest) {
   Structure s{
       .shaft = {cylinder(0.3, 0.03, 3), cone(0.5, 0.03, 0.05, 5)},

@@ -1,5 +1,5 @@
-// code_aster's test SDLL129: a stepped shaft, hollow at one end, on two bearings with cross-coupling and
-// damping; docs/validation.md has what comes out.
+// code_aster's test SDLL129: a stepped shaft, hollow at one end, on two bearings with
+// cross-coupling and damping; docs/validation.md has what comes out.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -16,8 +16,8 @@ using test::pi;
 
 constexpr double exact = 1e-8;  // relative: roots to 1e-10, eigenvalues to 1e-11
 
-// A mass on springs and dampers, x + i y = r e^(lambda t): m lambda^2 + c lambda + k - i Q = 0. It whirls
-// by itself where lambda = i omega: m omega^2 = k and Q_0 = c omega, at any speed.
+// A mass on springs and dampers, x + i y = r e^(lambda t): m lambda^2 + c lambda + k - i Q = 0. It
+// whirls by itself where lambda = i omega: m omega^2 = k and Q_0 = c omega, at any speed.
 TEST(CouplingStability, OfAJeffcottRotorIsTheClosedForm) {
   const double m = 40.0, omega = 300.0, zeta = 0.04;
   const double k = m * omega * omega, c = 2.0 * zeta * m * omega;
@@ -62,7 +62,8 @@ TEST(CouplingStability, IsWhereTheFirstModeOfADiskedShaftLosesItsDamping) {
   EXPECT_NEAR(fastest, 0.0, 1e-8);
 }
 
-// Without damping any cross-coupled stiffness is too much: nothing is borne, nothing is lost on the way.
+// Without damping any cross-coupled stiffness is too much: nothing is borne, nothing is lost on the
+// way.
 TEST(CouplingStability, OfAnUndampedRotorIsNone) {
   const Structure s = test::two_disk(test::isotropic(1e6));
   const CouplingStability found = coupling_stability(s, 400.0, at(0.75), {.anticipated = 1e4});

@@ -41,9 +41,9 @@ Followed followed(const CriticalMap& map, const CriticalMapBranch& branch) {
   return all;
 }
 
-// Above the rank of the changed stiffness nothing but rises is possible: w^2 = min max q^H K q / q^H M
-// q grows with K, and no faster than K [Friswell2010]. A line that joins points of different modes
-// falls, or rises too fast, somewhere.
+// Above the rank of the changed stiffness nothing but rises is possible: w^2 = min max q^H K q /
+// q^H M q grows with K, and no faster than K [Friswell2010]. A line that joins points of different
+// modes falls, or rises too fast, somewhere.
 void expect_whole(const CriticalMap& map) {
   constexpr double rounding = 1e-7;  // relative, of a speed that no longer changes
   ASSERT_FALSE(map.branches.empty());
@@ -94,8 +94,8 @@ TEST(CriticalMap, ShowsTheCriticalSpeedsOfTheModel) {
   EXPECT_GT(criticals[found.size()].speed, map.top);
 }
 
-// A mass m on springs k, four of them equal: Omega = sqrt(k / m) forward and backward alike, a double
-// speed at every stiffness, and both branches go through the whole map.
+// A mass m on springs k, four of them equal: Omega = sqrt(k / m) forward and backward alike, a
+// double speed at every stiffness, and both branches go through the whole map.
 TEST(CriticalMap, FollowsEqualSpeedsAsTwoBranches) {
   const double m = 2.0, k = 2e4;
   const Structure s{.bodies = {{.name = "rotor", .m = m, .spins = true}},
@@ -188,8 +188,8 @@ TEST(FollowShapes, GoesOnBeyondAnEigenproblemThatFails) {
   EXPECT_EQ(found.gaps[0].reason, "it does not converge");
 }
 
-// Shapes that turn by 60 degrees in a step are looked at between, where there is nothing here: nobody
-// asked for these values, and they are no gaps.
+// Shapes that turn by 60 degrees in a step are looked at between, where there is nothing here:
+// nobody asked for these values, and they are no gaps.
 TEST(FollowShapes, DoesNotTellGapsBetweenTheValues) {
   int refused = 0;
   const SolveShapes solve = [&](double t) {
@@ -209,8 +209,8 @@ TEST(FollowShapes, DoesNotTellGapsBetweenTheValues) {
 }
 
 // A mass m on a film of stiffness k0 + a Omega, the same along x and y: critical where
-// m Omega^2 = k0 + a Omega. The map goes over a stiffness that stands for the film, and the film's own
-// crosses it there; without speeds to look at films are left out.
+// m Omega^2 = k0 + a Omega. The map goes over a stiffness that stands for the film, and the film's
+// own crosses it there; without speeds to look at films are left out.
 TEST(CriticalMap, CrossesAFilmWhereTheModelIsCritical) {
   const double m = 3.0, k0 = 2e5, a = 400.0;
   Structure s{.bodies = {{.name = "rotor", .m = m, .spins = true}}};
@@ -242,8 +242,8 @@ TEST(CriticalMap, CrossesAFilmWhereTheModelIsCritical) {
   }
 }
 
-// A pedestal stands on the same spring as a bearing of a body and as a link: the map is the same, and
-// sweeps what ends on the shaft only. It swept the spring below the pedestal before, too.
+// A pedestal stands on the same spring as a bearing of a body and as a link: the map is the same,
+// and sweeps what ends on the shaft only. It swept the spring below the pedestal before, too.
 TEST(CriticalMap, LeavesFoundationsAsTheyAre) {
   Structure by_bearing = test::two_disk({});
   by_bearing.bodies = {{.name = "pedestal", .m = 20.0}};

@@ -73,7 +73,8 @@ TEST(Forces, AConstantAccelerationOfTheBaseIsGravity) {
   EXPECT_LT((line.shear - same.shear).norm(), 1e-9 * line.shear.norm());
 }
 
-// Along a direction (F cos a, F sin a) e^(i p) H(Omega); forward (1, -i) e^(i p), backward (1, i) e^(-i p).
+// Along a direction (F cos a, F sin a) e^(i p) H(Omega); forward (1, -i) e^(i p), backward (1, i)
+// e^(-i p).
 TEST(Forces, OfOrderOneAreInTheResponseToUnbalance) {
   constexpr double Omega = 70.0, F = 5.0, p = 0.7, U = 3e-4;
   const Complex H = receptance(Omega), i(0.0, 1.0);

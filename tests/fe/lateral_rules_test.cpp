@@ -21,7 +21,8 @@ ResponsePeak peak(double speed, double AF) {
           .above = speed * rpm * (1.0 + 0.5 / AF)};
 }
 
-// 25.4 um up to 12 000 rpm, and no more at 3000, where the root alone would allow 50.8; half at 48 000; 6350 * 100 kg / 10 000 rpm = 63.5 g.mm, twice.
+// 25.4 um up to 12 000 rpm, and no more at 3000, where the root alone would allow 50.8; half at 48
+// 000; 6350 * 100 kg / 10 000 rpm = 63.5 g.mm, twice.
 TEST(LateralRules, AllowVibrationAndUnbalanceByTheSpeed) {
   EXPECT_NEAR(vibration_limit(12000.0 * rpm), 25.4e-6, rounding * 25.4e-6);
   EXPECT_EQ(vibration_limit(3000.0 * rpm), 25.4e-6);
@@ -62,7 +63,8 @@ TEST(LateralRules, ForbidSharpPeaksAmongOperatingSpeeds) {
   }
 }
 
-// 2.5 in light gas, 2.69 - 0.0115 * 34.05 = 2.298425, 2.0 at 60 kg/m^3; denser gas is always in region B.
+// 2.5 in light gas, 2.69 - 0.0115 * 34.05 = 2.298425, 2.0 at 60 kg/m^3; denser gas is always in
+// region B.
 TEST(LateralRules, ScreenASpeedRatioByTheDensityOfTheGas) {
   EXPECT_EQ(largest_speed_ratio(1.2), 2.5);
   EXPECT_EQ(largest_speed_ratio(16.5), 2.5);

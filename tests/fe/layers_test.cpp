@@ -43,8 +43,8 @@ void expect_same(const Sparse& a, const Sparse& b) {
   EXPECT_LT((Mat(a) - expected).cwiseAbs().maxCoeff(), rounding * expected.cwiseAbs().maxCoeff());
 }
 
-// Without shear the shape functions of a cylinder are cubic whatever its diameters, and E I, rho A and
-// rho I of a tube are the sums of those of its inner and outer half.
+// Without shear the shape functions of a cylinder are cubic whatever its diameters, and E I, rho A
+// and rho I of a tube are the sums of those of its inner and outer half.
 TEST(Layers, TwoHalvesOfAWallAreTheWholeTube) {
   const Structure whole = tube(0.08, 0.04);
   Structure halves = tube(0.06, 0.04);

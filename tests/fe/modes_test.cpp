@@ -243,8 +243,8 @@ TEST(Modes, FewerComeBackIfThereAreFewer) {
 }
 
 // A shaft element and a disk have eight degrees of freedom with mass; the dampers of the left
-// bearing keep two motions from oscillating. The massless end of the shaft in its bearing has four eigenvalues at
-// infinity, which rounding moves to some 1e10 rad/s.
+// bearing keep two motions from oscillating. The massless end of the shaft in its bearing has four
+// eigenvalues at infinity, which rounding moves to some 1e10 rad/s.
 TEST(Modes, AreNotThoseOfPartsWithoutMassAtInfinity) {
   Segment heavy = test::cylinder(0.13217445398790448, 0.022821769534020705, 1),
           light = test::cylinder(0.197777962606788, 0.021103455400970514, 1);
@@ -351,8 +351,8 @@ TEST(Modes, PrecessionOfAFreeSpinningRotorIsARigidBodyMode) {
   EXPECT_GT(modes.oscillatory.front().frequency(), 20.0 * Omega);  // nothing rigid among these
 }
 
-// Moving a free shaft as a whole is no damped motion: its eigenvalue is zero, and it has no damping ratio.
-// Rounding made pairs of it before, with ratios of 1 and -1, heavily damped and unstable.
+// Moving a free shaft as a whole is no damped motion: its eigenvalue is zero, and it has no damping
+// ratio. Rounding made pairs of it before, with ratios of 1 and -1, heavily damped and unstable.
 TEST(Modes, OfARigidBodyHaveNoDamping) {
   Structure s = test::two_disk(test::isotropic(1e7));
   s.bearings.clear();

@@ -53,7 +53,8 @@ TEST(RotorProperties, CountDisksAndBodiesThatSpin) {
   EXPECT_NEAR(p.Ip, shaft * 0.05 * 0.05 / 8.0 + 0.2 + 0.3, rounding);
 }
 
-// About its center a cylinder has m (3 r^2 + L^2) / 12, by Steiner's theorem a disk off it m a^2 more.
+// About its center a cylinder has m (3 r^2 + L^2) / 12, by Steiner's theorem a disk off it m a^2
+// more.
 TEST(RotorProperties, HaveTheTransverseInertiaOfACylinderAndADisk) {
   const double L = 1.2, d = 0.1, z = 1.0;
   Structure s{.shaft = {test::cylinder(0.5, d, 1), test::cylinder(L - 0.5, d, 2)}};

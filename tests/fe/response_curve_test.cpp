@@ -33,8 +33,9 @@ ResponseCurve jeffcott_curve(double zeta, const std::vector<double>& speeds) {
 }
 
 // Highest at w = (1 - 2 zeta^2)^(-1/2) with e / (2 zeta (1 - zeta^2)^(1/2)); 0.707 of it where
-// 1 / w^2 = 1 - 2 zeta^2 +- 2 zeta (1 - zeta^2)^(1/2). zeta = 1 / 350 has an amplification of 175. The
-// width of the peak is a 30000th of the range for the sharpest; speeds that were asked for are two.
+// 1 / w^2 = 1 - 2 zeta^2 +- 2 zeta (1 - zeta^2)^(1/2). zeta = 1 / 350 has an amplification of 175.
+// The width of the peak is a 30000th of the range for the sharpest; speeds that were asked for are
+// two.
 TEST(ResponseCurve, HasThePeaksOfAJeffcottRotorInClosedForm) {
   for (const double zeta : {1e-5, 1.0 / 350.0, 0.05, 0.2}) {
     const ResponseCurve curve = jeffcott_curve(zeta, {0.0, 300.0});

@@ -42,8 +42,8 @@ TEST(RigidSupports, AreOilFilmsToo) {
   EXPECT_NEAR(critical_on_rigid_supports(s), rotor.omega(), exact * rotor.omega());
 }
 
-// A disk that tilts, overhung by b beyond the second bearing, is critical in backward whirl first; that
-// does not count. K = 3 E I [..]: both senses from (K - w^2 diag(m, Id -+ Ip)) singular.
+// A disk that tilts, overhung by b beyond the second bearing, is critical in backward whirl first;
+// that does not count. K = 3 E I [..]: both senses from (K - w^2 diag(m, Id -+ Ip)) singular.
 TEST(RigidSupports, LeaveBackwardWhirlOut) {
   Structure s = {
       .shaft = {test::massless_cylinder(0.6, 0.02, 2), test::massless_cylinder(0.2, 0.02, 1)}};

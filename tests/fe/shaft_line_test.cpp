@@ -58,8 +58,8 @@ TEST(DeflectionFunctions, OfACylinderAreTheClosedForms) {
   }
 }
 
-// A cone bent by a force at its end carries no load between its nodes: one element is exact there, and
-// equals a mesh with nodes at all the places that are drawn.
+// A cone bent by a force at its end carries no load between its nodes: one element is exact there,
+// and equals a mesh with nodes at all the places that are drawn.
 TEST(ShaftLine, OfACantileveredConeEqualsAMeshWithNodesThere) {
   constexpr int parts = 12;
   const auto deflection = [](int elements, int pieces) {
@@ -99,8 +99,8 @@ TEST(ShaftLine, FollowsRigidRotationsWithTheSignsOfTheConventions) {
   EXPECT_DOUBLE_EQ(line.z(line.z.size() - 1), 0.8);
 }
 
-/// Error of the second mode of a pinned shaft between the nodes too, of its largest displacement: it is a
-/// sine whatever the theory.
+/// Error of the second mode of a pinned shaft between the nodes too, of its largest displacement:
+/// it is a sine whatever the theory.
 double error_of_second_mode(Segment shaft) {
   const Assembler assembler(test::pinned(shaft));
   const System system = assembler.at(0.0);

@@ -1,8 +1,8 @@
 // Command lines over all verbs: a verb does what it is asked for, or an error says what is wrong.
 //
-// An input is words, a line each, the first one a verb. They find a model, a probe file, a record and a
-// result in the folder where they run, and no other: words with a slash are left out, and so are numbers of
-// many digits, which may ask for much work. A study is stopped at once.
+// An input is words, a line each, the first one a verb. They find a model, a probe file, a record
+// and a result in the folder where they run, and no other: words with a slash are left out, and so
+// are numbers of many digits, which may ask for much work. A study is stopped at once.
 
 #include <fmt/format.h>
 #include <unistd.h>

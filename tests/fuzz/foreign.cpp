@@ -1,8 +1,9 @@
-// The bytes of HDF5 and MATLAB files, which others' libraries read: whatever they are, this process lives,
-// and meets numbers or an error.
+// The bytes of HDF5 and MATLAB files, which others' libraries read: whatever they are, this process
+// lives, and meets numbers or an error.
 //
-// The first letter of an input says what it is: h an HDF5 file, m a MATLAB file, e a seed beside the corpus
-// (its number in the next byte) with bytes changed: three bytes where, one what. Its checksum is right.
+// The first letter of an input says what it is: h an HDF5 file, m a MATLAB file, e a seed beside
+// the corpus (its number in the next byte) with bytes changed: three bytes where, one what. Its
+// checksum is right.
 
 #include <algorithm>
 #include <cstddef>

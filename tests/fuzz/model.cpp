@@ -1,5 +1,5 @@
-// Text of models: whatever it is, a model comes of it or an error that says where. As a result stores it no
-// file is opened for it: what it names as a table is refused.
+// Text of models: whatever it is, a model comes of it or an error that says where. As a result
+// stores it no file is opened for it: what it names as a table is refused.
 
 #include <algorithm>
 #include <cstddef>

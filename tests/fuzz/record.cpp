@@ -1,8 +1,9 @@
-// Records of measurements and files of probes: a record comes of a file, or one problem with its place,
-// and what its channels mean is found or refused.
+// Records of measurements and files of probes: a record comes of a file, or one problem with its
+// place, and what its channels mean is found or refused.
 //
-// The first letter of an input says what it is: c a table, u a universal file, w a sound file, p a file of
-// probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of foreign.cpp.)
+// The first letter of an input says what it is: c a table, u a universal file, w a sound file, p a
+// file of probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of
+// foreign.cpp.)
 
 #include <cmath>
 #include <cstddef>

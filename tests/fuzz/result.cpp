@@ -1,10 +1,10 @@
-// Result files: what a file holds instead of what whirl wrote is refused by its schema, or everything
-// that reads results copes with it.
+// Result files: what a file holds instead of what whirl wrote is refused by its schema, or
+// everything that reads results copes with it.
 //
 // The bytes of HDF5 are not what is tried here (foreign.cpp does, behind a child process), but
-// what a stranger's file can say in them: each input is a list of edits of one of the seeds beside the
-// corpus, read into memory once. An edit replaces a dataset or attribute, drops it, or gives it other
-// sizes, another kind or single other values.
+// what a stranger's file can say in them: each input is a list of edits of one of the seeds beside
+// the corpus, read into memory once. An edit replaces a dataset or attribute, drops it, or gives it
+// other sizes, another kind or single other values.
 
 #include <cstddef>
 #include <cstdint>

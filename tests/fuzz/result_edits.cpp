@@ -204,8 +204,8 @@ bool edit(Item& item, std::uint8_t how, std::uint8_t a, std::uint8_t b) {
   return true;
 }
 
-/// Gives whatever is as long as a side of an item another length: a file that agrees with itself, but of
-/// no points or of one.
+/// Gives whatever is as long as a side of an item another length: a file that agrees with itself,
+/// but of no points or of one.
 void resize_alike(std::vector<Item>& items, const Item& like, std::uint8_t a, std::uint8_t b) {
   if (like.shape.empty()) return;
   const Index before = like.shape[a % like.shape.size()], after = b % 4;

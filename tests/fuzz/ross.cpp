@@ -1,5 +1,5 @@
-// Rotors of ROSS, as JSON or TOML: a model comes of a file that can be read again, or problems with their
-// places.
+// Rotors of ROSS, as JSON or TOML: a model comes of a file that can be read again, or problems with
+// their places.
 
 #include <cstddef>
 #include <cstdint>

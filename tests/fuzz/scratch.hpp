@@ -1,5 +1,6 @@
 #pragma once
-/// A folder for a file that is tried, in memory where there is such a place; removed when the program ends.
+/// A folder for a file that is tried, in memory where there is such a place; removed when the
+/// program ends.
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
-// models/blade_seal.toml: what "Dynamic response and stability of a blade rotor with coupled rubbing
-// in the labyrinth seal and tip seal" tells in words, and numbers of independent programs of ours,
-// as its own stand in figures.
+// models/blade_seal.toml: what "Dynamic response and stability of a blade rotor with coupled
+// rubbing in the labyrinth seal and tip seal" tells in words, and numbers of independent programs
+// of ours, as its own stand in figures.
 
 #include <gtest/gtest.h>
 
@@ -155,9 +155,8 @@ TEST(BladeSeal, HasTheForcesOfItsEquations) {
   EXPECT_GT(touching, 200);
 }
 
-// Just below 5000 rpm rub begins, with the revolution (in words, period 1; the speed is an independent
-// program's): none at 4950, tips and labyrinth each alone
-// and both at 5000.
+// Just below 5000 rpm rub begins, with the revolution (in words, period 1; the speed is an
+// independent program's): none at 4950, tips and labyrinth each alone and both at 5000.
 TEST(BladeSeal, BeginsToRubWithPeriodOneJustBelow5000Rpm) {
   const Classification free = classified(bundled(4950.0));
   EXPECT_EQ(free.contacts.at(0).duty + free.contacts.at(1).duty, 0.0);
@@ -169,9 +168,8 @@ TEST(BladeSeal, BeginsToRubWithPeriodOneJustBelow5000Rpm) {
   }
 }
 
-// Run-down, the state carried from speed to speed: contact comes back by a jump near 5400 rpm, as an
-// independent program has it. On
-// run-up it had lasted.
+// Run-down, the state carried from speed to speed: contact comes back by a jump near 5400 rpm, as
+// an independent program has it. On run-up it had lasted.
 TEST(BladeSeal, ComesBackToRubByAJumpNear5400Rpm) {
   MotionState state;
   const auto duty_at = [&](double speed) {

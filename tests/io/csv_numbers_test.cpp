@@ -40,8 +40,8 @@ TEST_F(CsvNumbers, OfAnEmptyTableAreItsFirstLine) {
   EXPECT_EQ(test::content(files[0]), "x [m],none [s],z\n");
 }
 
-// A table is read in blocks: rows along two axes, some of whose numbers are of several columns and one
-// along the second axis first, are in their places across the blocks' borders.
+// A table is read in blocks: rows along two axes, some of whose numbers are of several columns and
+// one along the second axis first, are in their places across the blocks' borders.
 TEST_F(CsvNumbers, OfLongTablesAreInTheirPlaces) {
   constexpr int rows = 70'001, wide = 2;  // more than 2^16
   std::vector<double> axis(rows), pair(rows * wide), turned(wide * rows);

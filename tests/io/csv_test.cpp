@@ -23,8 +23,8 @@ class CsvTables : public test::InResultFolder {
   }
 };
 
-// RFC 4180, rules 5 to 7: cells with commas, quotation marks or line breaks stand in quotation marks,
-// which are doubled within.
+// RFC 4180, rules 5 to 7: cells with commas, quotation marks or line breaks stand in quotation
+// marks, which are doubled within.
 TEST_F(CsvTables, QuoteWhatWouldBeCutApart) {
   EXPECT_EQ(table({"ring, left", "a \"b\"", "two\nlines", "plain"}),
             "name,duty\n"

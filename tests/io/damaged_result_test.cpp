@@ -106,8 +106,8 @@ TEST_F(DamagedResult, AChangeByAnotherProgramIsNoDamage) {
   EXPECT_TRUE(ResultReader(path).has("/notes"));
 }
 
-// Files of strangers on which reports ended by a signal: counts that overflow, empty and half datasets,
-// codes without meaning, flipped bytes. Each is refused, or read as far as it is right.
+// Files of strangers on which reports ended by a signal: counts that overflow, empty and half
+// datasets, codes without meaning, flipped bytes. Each is refused, or read as far as it is right.
 TEST_F(DamagedResult, FilesThatOnceEndedAReportAreRefused) {
   int files = 0;
   for (const auto& entry : fs::directory_iterator(WHIRL_SOURCE_DIR "/tests/data/bad_results")) {
@@ -126,8 +126,8 @@ void forge_seal(const fs::path& path) {
   hdf5::seal(path);
 }
 
-// A checksum says that nothing was damaged by chance; who changes a file writes the right one. Whatever
-// HDF5 does then, it does not do it here.
+// A checksum says that nothing was damaged by chance; who changes a file writes the right one.
+// Whatever HDF5 does then, it does not do it here.
 TEST_F(DamagedResult, AForgedChecksumIsBelievedNothing) {
   write_example(path);
   const std::string whole = content(path);

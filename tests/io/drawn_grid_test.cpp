@@ -36,8 +36,8 @@ TEST(DrawnGrid, IsCoarserAlongTheLongerAxis) {
 
 class DrawnStudy : public test::InResultFolder {};
 
-// Of a plane whose exponents say their place, the figure has every second column, each at its place, and
-// what says so.
+// Of a plane whose exponents say their place, the figure has every second column, each at its
+// place, and what says so.
 TEST_F(DrawnStudy, IsWhatFiguresShow) {
   constexpr std::size_t side = 640;
   ParameterAxis x{.path = "operation.speed", .unit = "rad/s"},

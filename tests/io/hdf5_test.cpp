@@ -60,8 +60,8 @@ TEST_F(ResultFile, TellsAxesAndKinds) {
   EXPECT_THROW(in.axes("/a"), FileError);
 }
 
-// Numbers that come in pieces of any length, of a dataset that is compressed in chunks, and a stretch
-// or a box of them.
+// Numbers that come in pieces of any length, of a dataset that is compressed in chunks, and a
+// stretch or a box of them.
 TEST_F(ResultFile, IsWrittenAndReadInBlocks) {
   const std::vector<Eigen::Index> shape{7, 50, 9};
   std::vector<double> all(7 * 50 * 9), columns(400'000);
@@ -321,8 +321,8 @@ TEST_F(ResultFile, ErrorsAreSilentInEveryThread) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// A reader's child copies what other threads hold: were one of them inside HDF5, the child would wait
-// for it for ever, and this test with it.
+// A reader's child copies what other threads hold: were one of them inside HDF5, the child would
+// wait for it for ever, and this test with it.
 TEST_F(ResultFile, IsReadWhileOtherThreadsWrite) {
   write_example(path);
   std::vector<std::jthread> writers;

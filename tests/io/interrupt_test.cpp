@@ -1,4 +1,5 @@
-// Signals that ask to stop: a program with nothing to keep ends, another one stops with what it has.
+// Signals that ask to stop: a program with nothing to keep ends, another one stops with what it
+// has.
 
 #include "libio/text/interrupt.hpp"
 

@@ -80,7 +80,8 @@ std::string material(const std::string& density, const std::string& modulus) {
          "0.1\n";
 }
 
-// Numbers that are another thing in the unit that was meant: those of machines are far from them in SI.
+// Numbers that are another thing in the unit that was meant: those of machines are far from them in
+// SI.
 TEST(ValueDoubts, NumbersWithoutTheirUnitAreSi) {
   EXPECT_EQ(doubts(material("7850", "2.1e11")), "");
   EXPECT_EQ(doubts(material("0", "2.1e11") + "[[disk]]\nat = 0\nmass = 1\n"), "");  // massless
@@ -190,7 +191,8 @@ TEST(ModelDoubts, ColumnsThatABearingLacksAreDoubtedOncePerTable) {
             "zero\n");
 }
 
-// A mass m on springs k sags by m g / k, here 10 mm: 8 mm more than the clearance, and none along +y.
+// A mass m on springs k sags by m g / k, here 10 mm: 8 mm more than the clearance, and none along
+// +y.
 TEST(ModelDoubts, ContactsThatTouchAtRest) {
   const auto at_rest = [](const std::string& clearance) {
     const Model model = parse_model(

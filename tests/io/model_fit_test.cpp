@@ -30,8 +30,8 @@ Model model_with(double damping) {
       "m.toml");
 }
 
-// x + i y = e m Omega^2 / (k - m Omega^2 + i c Omega) e^(i Omega t), which the first model explains with
-// one stiffness. The file is gone before the first of the fits.
+// x + i y = e m Omega^2 / (k - m Omega^2 + i c Omega) e^(i Omega t), which the first model explains
+// with one stiffness. The file is gone before the first of the fits.
 TEST_F(ModelFit, TakesRecordsThatWereReadOnce) {
   const std::complex<double> size =
       e * m * Omega * Omega / std::complex<double>(k - m * Omega * Omega, c * Omega);
@@ -68,7 +68,8 @@ TEST_F(ModelFit, TakesRecordsThatWereReadOnce) {
   EXPECT_GT(left[1], 1.0);
 }
 
-// Two revolutions are the least that is documented, whatever a speed does to the last bit of their time.
+// Two revolutions are the least that is documented, whatever a speed does to the last bit of their
+// time.
 TEST(FitSpan, TwoRevolutionsAreEnough) {
   constexpr double rate = 5000.0;
   for (int i = 0; i < 200; ++i) {

@@ -77,8 +77,8 @@ TEST_F(OwnFile, WhatOthersWroteIsForeign) {
   }
 }
 
-// The smallest PNG that there is, a pixel. Its mark leaves the chunks whole: lengths lead from one to
-// the next, and every check sum is right, by the algorithm of ISO/IEC 15948, annex D.
+// The smallest PNG that there is, a pixel. Its mark leaves the chunks whole: lengths lead from one
+// to the next, and every check sum is right, by the algorithm of ISO/IEC 15948, annex D.
 TEST_F(OwnFile, PngsAreMarkedByATextChunk) {
   const std::string chunks =
       std::string("\x89PNG\r\n\x1a\n", 8) +

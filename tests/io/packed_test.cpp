@@ -60,7 +60,8 @@ TEST(Packed, MatricesAndWholeNumbersAreTheSameAgain) {
   EXPECT_EQ(kind, BifurcationKind::grazing);
 }
 
-// Numbers that end early, go on too long or count more than there is are refused, with their dataset.
+// Numbers that end early, go on too long or count more than there is are refused, with their
+// dataset.
 TEST(Packed, DamageIsToldWithItsPlace) {
   const std::vector<double> whole = numbers_of(example());
   const auto problem = [](const std::vector<double>& numbers) -> std::string {

@@ -73,8 +73,8 @@ TEST(Axis, GoesAroundItsNumbers) {
 
 // Least squares by hand: 1 and 2 at a distance of 3 go to 0 and 3; a third one at 4 pushes the
 // group: starts s, s + 3, s + 6 with s = (1 + 2 + 4 - 9) / 3.
-// XML 1.0 has no way to write U+FFFE, U+FFFF, controls, surrogates and bytes that are no UTF-8 [2.2]: a
-// viewer refuses the whole picture.
+// XML 1.0 has no way to write U+FFFE, U+FFFF, controls, surrogates and bytes that are no UTF-8
+// [2.2]: a viewer refuses the whole picture.
 TEST(Svg, TextsHoldOnlyWhatXmlCanHold) {
   EXPECT_EQ(xml_text("a\xef\xbf\xbe"
                      "b\xef\xbf\xbf"
@@ -273,7 +273,8 @@ TEST(FigureAxes, GoAroundCells) {
   EXPECT_EQ(std::pair(axes.y.first, axes.y.last), std::pair(0.0, 40.0));
 }
 
-// Cells whose middles all lie in one place have no edges to go to: ticks of an axis of no width never end.
+// Cells whose middles all lie in one place have no edges to go to: ticks of an axis of no width
+// never end.
 TEST(FigureAxes, OfCellsInOnePlaceCanBeDrawn) {
   Panel p;
   p.cells.x = {-0.05, -0.05, -0.05};

@@ -39,8 +39,8 @@ std::string printed(bool shows, double period) {
 
 TEST(ProgressLine, IsALineNowAndThenWithoutATerminal) {
   const std::string text = printed(true, 0.03);
-  EXPECT_TRUE(std::regex_match(
-      text, std::regex("(mapping: \\d+ of 20, [0-9.]+/s, \\d+:\\d\\d left\n)+")))
+  EXPECT_TRUE(
+      std::regex_match(text, std::regex("(mapping: \\d+ of 20, [0-9.]+/s, \\d+:\\d\\d left\n)+")))
       << text;
   EXPECT_EQ(printed(true, 3600.0), "");
   EXPECT_EQ(printed(false, 0.0), "");

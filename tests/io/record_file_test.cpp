@@ -1,5 +1,5 @@
-// Records of measurements: every format reads back what it wrote, files of other writers are read, and
-// what is wrong in a file is said with its place.
+// Records of measurements: every format reads back what it wrote, files of other writers are read,
+// and what is wrong in a file is said with its place.
 
 #include "libio/measured/record_file.hpp"
 
@@ -143,7 +143,8 @@ TEST_F(RecordFile, FindsTimesByTheirUnit) {
   }
 }
 
-// Where the rate is known a channel in a unit of time is one like any other, and a last word is no unit.
+// Where the rate is known a channel in a unit of time is one like any other, and a last word is no
+// unit.
 TEST_F(RecordFile, LeavesNamesAndOtherChannelsAsTheyAre) {
   const std::string table = "Bearing 1 V,Bearing 1 H,period [ms]\n1,2,13\n3,4,12\n";
   const MeasuredRecord record = read_record(file("a.csv", table), 100.0);
@@ -348,8 +349,8 @@ TEST_F(RecordFile, ReadsMatlabFilesOfOtherWriters) {
   }
 }
 
-// matio fills values that a file does not have from memory that was used before: also in a compressed
-// variable they are counted, and what is whole is read.
+// matio fills values that a file does not have from memory that was used before: also in a
+// compressed variable they are counted, and what is whole is read.
 TEST_F(RecordFile, CountsTheValuesOfMatlabFiles) {
   const auto compressed = [](const std::string& file) {
     constexpr std::size_t head = 128, tag = 8;
@@ -376,7 +377,8 @@ TEST_F(RecordFile, CountsTheValuesOfMatlabFiles) {
   expect_problem("a.mat", cut, "a.mat");
 }
 
-// Names and units in cells, as MATLAB has texts, of the channels beside one of times; whole numbers.
+// Names and units in cells, as MATLAB has texts, of the channels beside one of times; whole
+// numbers.
 TEST_F(RecordFile, ReadsCellsAndWholeNumbersOfMatlab) {
   const auto text = [](std::string of) {
     std::size_t size[] = {1, of.size()};

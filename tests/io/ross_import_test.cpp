@@ -33,8 +33,8 @@ fs::path saved(const std::string& name) {
   return fs::path(WHIRL_TEST_DATA) / "ross" / name;
 }
 
-// A key that stands twice would count once, the last one for Python; a number beyond all doubles would be
-// infinite: both are refused in words. A byte-order mark counts for nothing.
+// A key that stands twice would count once, the last one for Python; a number beyond all doubles
+// would be infinite: both are refused in words. A byte-order mark counts for nothing.
 TEST(OfRoss, JsonOfOtherWritersIsReadOrRefused) {
   const auto problem = [](const std::string& text) {
     try {

@@ -7,8 +7,9 @@
 
 namespace whirl::shown_text_test {
 
-// Escape sequences [ECMA-48: ESC, and CSI of one byte, which is two in UTF-8], a return to the begin of
-// the line, signs that turn the direction of a text, and bytes that are no UTF-8. All else stays.
+// Escape sequences [ECMA-48: ESC, and CSI of one byte, which is two in UTF-8], a return to the
+// begin of the line, signs that turn the direction of a text, and bytes that are no UTF-8. All else
+// stays.
 TEST(ShownText, SteersNoTerminal) {
   EXPECT_EQ(shown_text("\x1b[2Jtitle\x07"), "\ufffd[2Jtitle\ufffd");
   EXPECT_EQ(shown_text("a\u009b31mb\x7f"), "a\ufffd31mb\ufffd");

@@ -127,7 +127,8 @@ void set_attribute(const fs::path& path, const char* object, const char* name, c
   H5Fclose(file);
 }
 
-// The values at a point of a branch are set in the model of whoever goes on from there: they are numbers.
+// The values at a point of a branch are set in the model of whoever goes on from there: they are
+// numbers.
 TEST_F(StoredModel, PointsOfBranchesSetNumbers) {
   const fs::path seed = WHIRL_SOURCE_DIR "/tests/fuzz/results/branch.h5";
   EXPECT_FALSE(read_branch_point(seed, 1).sets.empty());

@@ -78,7 +78,8 @@ TEST(FitText, GoesOnWithALineForAShell) {
       << text;
 }
 
-// A contact that is apart, touches now and then at two values, always at the third, and is apart again.
+// A contact that is apart, touches now and then at two values, always at the third, and is apart
+// again.
 TEST(SweepText, SaysWhereContactsBeginAndEnd) {
   const std::vector<double> values{1.0, 2.0, 3.0, 4.0, 5.0};
   SweepResult result{.system = {.contacts = {"ring"}}, .start = SweepStart::fresh};

@@ -95,8 +95,8 @@ TEST(Table, FoldsItsWidestText) {
             "  mac    short\n");
 }
 
-// Columns of numbers that find no place follow below, each block with the first column: every cell is
-// there, once.
+// Columns of numbers that find no place follow below, each block with the first column: every cell
+// is there, once.
 TEST(Table, ContinuesBelowWithTheFirstColumnAgain) {
   std::vector<std::string> head{"speed"}, cells{"4430"};
   for (int i = 0; i < 20; ++i) {

@@ -466,8 +466,8 @@ TEST_F(VtkSeries, ADiskByItsMassIsAThinBrokenSymbol) {
   EXPECT_EQ(cells(data, 4).size(), 4u * 48u / 2u);  // the wheel, half of its sectors
 }
 
-// A diameter without a width is drawn true; where a contact says at which radius it touches the disk, the
-// symbol is as large.
+// A diameter without a width is drawn true; where a contact says at which radius it touches the
+// disk, the symbol is as large.
 TEST_F(VtkSeries, OnlyWhatIsNotGivenIsASymbol) {
   std::string text = masses;
   text.replace(text.find("width = \"60 mm\""), 15, "# none");

@@ -1,5 +1,5 @@
-// Level I of the lateral analysis beside all eigenvalues over the cross-coupled stiffness, by LAPACK's
-// QZ: rotors drawn at random with unlike bearings.
+// Level I of the lateral analysis beside all eigenvalues over the cross-coupled stiffness, by
+// LAPACK's QZ: rotors drawn at random with unlike bearings.
 
 #include <gtest/gtest.h>
 
@@ -51,9 +51,9 @@ bool is_held(const Structure& structure, double Omega) {
   return is_supported(symmetric_part(Assembler(structure).uncondensed(Omega, 0.0).K));
 }
 
-// Below Q_0 no eigenvalue of 1000 rotors is right of the imaginary axis, above it one is; Q_0 is zero
-// where one is without Q, and there is none where none is up to 1e10 N/m. Modes were followed by the
-// name of their whirl at Q = 0 before.
+// Below Q_0 no eigenvalue of 1000 rotors is right of the imaginary axis, above it one is; Q_0 is
+// zero where one is without Q, and there is none where none is up to 1e10 N/m. Modes were followed
+// by the name of their whirl at Q = 0 before.
 TEST(CouplingStability, IsThatOfAllEigenvaluesOfRandomRotors) {
   int unstable = 0, limited = 0, unlimited = 0;
   for (unsigned seed = 1; seed <= 1000; ++seed) {
@@ -99,9 +99,9 @@ TEST(CouplingStability, IsThatOfAllEigenvaluesOfRandomRotors) {
   EXPECT_GT(unlimited, 5);
 }
 
-// Two rotors whose bearings are stiffer along x than along y, or the other way round: the mode that Q
-// drives is called mixed without it, and one that is called forward stays well damped. They passed with
-// 20 MN/m (decrements of +3.0 and more), and were told to bear any Q.
+// Two rotors whose bearings are stiffer along x than along y, or the other way round: the mode that
+// Q drives is called mixed without it, and one that is called forward stays well damped. They
+// passed with 20 MN/m (decrements of +3.0 and more), and were told to bear any Q.
 TEST(CouplingStability, FollowsADrivenModeThatIsCalledMixedWithoutIt) {
   constexpr double QA = 20e6;
   for (const auto& [file, middle] :

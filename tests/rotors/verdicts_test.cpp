@@ -21,8 +21,9 @@ bool grows(const Modes& modes) {
          std::any_of(modes.overdamped.begin(), modes.overdamped.end(), is_growing);
 }
 
-// A rotor that has a growing mode at its largest speed fails in the lateral report, with Q_0 = 0 and a
-// decrement below zero, and a decrement of a Campbell diagram at that speed is below zero likewise.
+// A rotor that has a growing mode at its largest speed fails in the lateral report, with Q_0 = 0
+// and a decrement below zero, and a decrement of a Campbell diagram at that speed is below zero
+// likewise.
 TEST(Verdicts, PassNoRotorWithAGrowingMode) {
   int unstable = 0, looked = 0;
   for (unsigned seed = 1; seed <= 150; ++seed) {
@@ -52,8 +53,8 @@ TEST(Verdicts, PassNoRotorWithAGrowingMode) {
   EXPECT_GE(unstable, looked);
 }
 
-// Shafts and pedestals without mass have infinite eigenvalues, which rounding makes as large as 1e16 1/s
-// of any sign: rotors that are stable were told to have a root of +2e15 1/s.
+// Shafts and pedestals without mass have infinite eigenvalues, which rounding makes as large as
+// 1e16 1/s of any sign: rotors that are stable were told to have a root of +2e15 1/s.
 TEST(Verdicts, CallNoRotorUnstableForItsPartsWithoutMass) {
   struct Draw {
     unsigned seed;

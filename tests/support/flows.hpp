@@ -107,8 +107,8 @@ inline Flow map_flow(int size, std::function<void(const Vec& y, Vec& f, Mat& J)>
           }};
 }
 
-/// Folds of one harmonic of Duffing's equation, a^2 ((1 + 3/4 b a^2 - w^2)^2 + (2 zeta w)^2) = F^2: the
-/// largest and smallest frequency above resonance, as amplitudes go down.
+/// Folds of one harmonic of Duffing's equation, a^2 ((1 + 3/4 b a^2 - w^2)^2 + (2 zeta w)^2) = F^2:
+/// the largest and smallest frequency above resonance, as amplitudes go down.
 inline std::pair<double, double> harmonic_folds(double zeta, double b, double F) {
   const auto frequency = [&](double a) {
     const double k = 1.0 + 0.75 * b * a * a - 2.0 * zeta * zeta, k0 = 1.0 + 0.75 * b * a * a;
@@ -123,9 +123,9 @@ inline std::pair<double, double> harmonic_folds(double zeta, double b, double F)
   return {upper, lower};
 }
 
-/// z' = z (1 + a - |z|^2) exp(i (circle_angle + circle_twist |z|^2)) for the first two coordinates of a
-/// map, z = x + i y: the circle |z| = sqrt(a) is turned by circle_angle + circle_twist a, and its exponent
-/// is log(1 - 2 a).
+/// z' = z (1 + a - |z|^2) exp(i (circle_angle + circle_twist |z|^2)) for the first two coordinates
+/// of a map, z = x + i y: the circle |z| = sqrt(a) is turned by circle_angle + circle_twist a, and
+/// its exponent is log(1 - 2 a).
 constexpr double circle_angle = 2.4, circle_twist = 0.7;
 inline void turn_circle(double a, const Vec& y, Vec& f, Mat& J) {
   const double x = y(0), w = y(1), r2 = x * x + w * w, s = 1.0 + a - r2;

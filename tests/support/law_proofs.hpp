@@ -1,6 +1,6 @@
 #pragma once
-// What every law of a contact or film has to show through its events: accuracy, orders of tolerance,
-// equal bits in a batch, tangents.
+// What every law of a contact or film has to show through its events: accuracy, orders of
+// tolerance, equal bits in a batch, tangents.
 
 #include <gtest/gtest.h>
 

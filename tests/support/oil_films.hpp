@@ -7,8 +7,8 @@
 
 namespace whirl::test {
 
-/// The two-disk rotor of "Double-rotor system under the coupling of rubbing and oil-film force", the
-/// usual set of its data: bodies 1 and 4 are journals, 2 and 3 disks, coordinates x, y of each.
+/// The two-disk rotor of "Double-rotor system under the coupling of rubbing and oil-film force",
+/// the usual set of its data: bodies 1 and 4 are journals, 2 and 3 disks, coordinates x, y of each.
 struct TwoDisksOnFilms {
   double Omega = 460.0;                       ///< [rad/s]
   double viscosity = 0.018;                   ///< [Pa.s]

@@ -1,5 +1,6 @@
 #pragma once
-/// All eigenvalues of a quadratic eigenproblem by LAPACK's QZ iteration, independent of libfe/eigen.
+/// All eigenvalues of a quadratic eigenproblem by LAPACK's QZ iteration, independent of
+/// libfe/eigen.
 
 #include <Eigen/Core>
 #include <Eigen/SparseLU>

@@ -66,8 +66,8 @@ inline std::string reason() {
   return text.substr(0, text.find('\''));
 }
 
-/// Something done with an object of a file; turns HDF5's negative results into errors. While it lasts
-/// nobody makes a child.
+/// Something done with an object of a file; turns HDF5's negative results into errors. While it
+/// lasts nobody makes a child.
 class Attempt {
  public:
   Attempt(const std::filesystem::path& file, std::string_view action, std::string object)
@@ -142,7 +142,8 @@ inline bool exists(hid_t file, const std::string& object) {
 }
 
 /// Calls f with the boxes, as few as there are, that numbers of a dataset from `first` on fill, in
-/// their order: f(first indices, sizes, how many numbers). A dataset without dimensions is one number.
+/// their order: f(first indices, sizes, how many numbers). A dataset without dimensions is one
+/// number.
 template <class F>
 void for_each_box(const std::vector<hsize_t>& sizes, hsize_t first, hsize_t count, const F& f) {
   if (sizes.empty()) {
@@ -163,8 +164,8 @@ void for_each_box(const std::vector<hsize_t>& sizes, hsize_t first, hsize_t coun
   }
 }
 
-/// The space of a box in memory: of one shape with it in the file, HDF5 takes it whole; else number by
-/// number.
+/// The space of a box in memory: of one shape with it in the file, HDF5 takes it whole; else number
+/// by number.
 inline hid_t memory_of(const std::vector<hsize_t>& box) {
   return H5Screate_simple(static_cast<int>(box.size()), box.data(), nullptr);
 }

@@ -8,7 +8,8 @@
 
 namespace whirl::inline io::hdf5 {
 
-/// The first bytes, at most so many, of what was compressed; none: it was not, or was damaged before.
+/// The first bytes, at most so many, of what was compressed; none: it was not, or was damaged
+/// before.
 std::optional<std::string> inflated(std::string_view compressed, std::size_t most);
 
 }  // namespace whirl::inline io::hdf5

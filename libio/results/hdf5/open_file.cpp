@@ -61,7 +61,8 @@ Source make_source(const Attempt& attempt, Handle id, Handle type, const Handle&
   return source;
 }
 
-/// Refuses datasets whose numbers are elsewhere, or of which the file cannot hold as many as it says.
+/// Refuses datasets whose numbers are elsewhere, or of which the file cannot hold as many as it
+/// says.
 void check_storage(const Attempt& attempt, const Source& source, hid_t file) {
   const Handle how(attempt(H5Dget_create_plist(source.id)));
   const H5D_layout_t layout = H5Pget_layout(how);

@@ -158,8 +158,7 @@ std::int64_t ResultWriter::create(const std::string& path, ObjectKind kind,
   const Handle properties = creation(H5P_DATASET_CREATE);
   make_groups(attempt, id_, path);
   const std::size_t item_bytes = H5Tget_size(type);
-  const bool is_compressed =
-      count * item_bytes > uncompressed_bytes && kind != ObjectKind::text;
+  const bool is_compressed = count * item_bytes > uncompressed_bytes && kind != ObjectKind::text;
   if (is_compressed) {
     const auto chunk = chunks(sizes, item_bytes);
     attempt(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()));
