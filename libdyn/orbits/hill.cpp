@@ -223,6 +223,28 @@ int enough_harmonics(const HarmonicEquations& equations, const CVec& mean, int o
   return std::max(orbit, static_cast<int>(std::min(wanted, most)));
 }
 
+/// log(multiplier) / T; of multipliers that are too small for a number, the eigenvalues that they
+/// are made of.
+CVec exponents_of(const CVec& multipliers, const std::vector<Complex>& eigenvalues, double T) {
+  std::vector<Complex> vanished;
+  for (const Complex& lambda : eigenvalues) {
+    if (std::exp(lambda * T) == 0.0) vanished.push_back(lambda);
+  }
+  std::sort(vanished.begin(), vanished.end(),
+            [](const Complex& a, const Complex& b) { return a.real() > b.real(); });
+  CVec exponents = multipliers;
+  auto next = vanished.begin();
+  for (Complex& rate : exponents) {
+    if (rate == 0.0 && next != vanished.end()) {
+      rate = {next->real(), std::remainder(next->imag(), 2.0 * std::numbers::pi / T)};
+      ++next;
+    } else {
+      rate = std::log(rate) / T;
+    }
+  }
+  return exponents;
+}
+
 /// Makes real what has no conjugate: real exponents at a strip's edge get imaginary parts of the
 /// truncation's size.
 void remove_stray_imaginary_parts(CVec& values) {
@@ -296,8 +318,7 @@ HillStability hill_stability(const HarmonicProblem& problem, const HarmonicOrbit
   }
   remove_stray_imaginary_parts(result.multipliers);
   sort_by_size(result.multipliers);
-  result.exponents = result.multipliers;
-  for (Complex& rate : result.exponents) rate = std::log(rate) / T;
+  result.exponents = exponents_of(result.multipliers, all, T);
   return result;
 }
 

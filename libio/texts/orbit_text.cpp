@@ -67,7 +67,7 @@ std::string multipliers_table(const FoundOrbit& orbit) {
                                  fmt::format("{:+.8f}", m.real()),
                                  fmt::format("{:+.8f}", m.imag()),
                                  fmt::format("{:.8f}", std::abs(m)),
-                                 fmt::format("{:+.6f}", rates(i).real()),
+                                 texts::number_text(rates(i).real(), "+.6f"),
                                  texts::number_text(rates(i).imag() / rpm, ".2f")};
     if (!orbit.modes.empty()) {
       const MultiplierMode& mode = orbit.modes[static_cast<std::size_t>(i)];

@@ -48,6 +48,7 @@ std::string heading_of(const Shown& shown, const NumberStyle& style) {
 std::string number_text(double value, std::string_view format) {
   constexpr double largest = 1e9;  // beyond it digits behind the point say nothing
   if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";
   if (std::abs(value) >= largest && format.ends_with('f')) {
     return fmt::format(fmt::runtime(format.starts_with('+') ? "{:+.4g}" : "{:.4g}"), value);
   }
@@ -60,6 +61,7 @@ std::string number_text(double value, std::string_view format) {
 std::string number_text(double value, const NumberStyle& style) {
   if (!style.format.empty()) return number_text(value / style.divisor, style.format);
   if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";
   return format_engineering(value / style.divisor, style.unit.empty() ? style.si_unit : "");
 }
 
