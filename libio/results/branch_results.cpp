@@ -10,40 +10,42 @@ namespace whirl::inline io {
 
 namespace {
 
-/// What a branch of a tree and a curve have in common.
+/// What a branch of a tree and a curve have in common. Its period stands before it; its end,
+/// contacts of grazings and readings of probes are columns of the result.
 void pack_branch(auto& in, auto& branch, auto& measures, auto& starts) {
-  in.size(branch.points);
-  in.size(branch.bifurcations);
-  in.resize(measures, branch.points.size());
-  in.resize(starts, branch.points.size());
-  for (std::size_t i = 0; i < branch.points.size(); ++i) {
-    pack_point(in, branch.points[i]);
-    in(measures[i].radii), in(measures[i].work), in(measures[i].sections);
+  auto& [period, points, bifurcations, end] = branch;
+  in.size(points);
+  in.size(bifurcations);
+  in.resize(measures, points.size());
+  in.resize(starts, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    pack_point(in, points[i]);
+    auto& [radii, work, probe_peak_to_peak, sections] = measures[i];
+    in(radii), in(work), in(sections);
     in(starts[i]);
   }
-  for (auto& x : branch.bifurcations) {
-    pack_point(in, x.at);
-    in(x.kind), in(x.after), in(x.change), in(x.multiplier);
+  for (auto& bifurcation : bifurcations) {
+    auto& [kind, at, after, contact, change, multiplier] = bifurcation;
+    pack_point(in, at);
+    in(kind), in(after), in(change), in(multiplier);
   }
-}
-
-void pack(auto& in, auto& b, auto& number, auto& generation, auto& kind) {
-  in(b.branch.period), in(number), in(generation), in(b.direction), in(kind);
 }
 
 void pack_traced(auto& in, auto& traced) {
+  auto& [branch, parent, generation, direction, measures, starts] = traced;
   auto kind = BifurcationKind::fold;  // only curves have one
-  pack(in, traced, traced.parent, traced.generation, kind);
-  pack_branch(in, traced.branch, traced.measures, traced.starts);
+  in(branch.period), in(parent), in(generation), in(direction), in(kind);
+  pack_branch(in, branch, measures, starts);
 }
 
 /// Nothing of a curve is measured.
 void pack_curve(auto& in, auto& curve) {
+  auto& [kind, contact, branch_number, direction, branch] = curve;
   int generation = 0;
-  std::vector<OrbitMeasure> measures(curve.branch.points.size());
-  std::vector<Vec> starts(curve.branch.points.size());
-  pack(in, curve, curve.branch_number, generation, curve.kind);
-  pack_branch(in, curve.branch, measures, starts);
+  std::vector<OrbitMeasure> measures(branch.points.size());
+  std::vector<Vec> starts(branch.points.size());
+  in(branch.period), in(branch_number), in(generation), in(direction), in(kind);
+  pack_branch(in, branch, measures, starts);
 }
 
 /// Checks the points of a branch against its layout and each other, and names their contacts.

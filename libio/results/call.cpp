@@ -7,7 +7,7 @@
 #include <ctime>
 #include <map>
 
-#include "libbase/numerics/arithmetic.hpp"
+#include "libbase/system/arithmetic.hpp"
 #include "libdyn/system/model.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/hdf5.hpp"

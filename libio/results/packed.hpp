@@ -16,10 +16,14 @@ namespace whirl::inline io {
 class ResultReader;
 class ResultWriter;
 
-/// Takes structs apart into doubles. A function template that names the members of a struct once
-/// serves Packer and Unpacker:
+/// Takes structs apart into doubles. A function template serves Packer and Unpacker. It names all
+/// members of a struct, those too that it leaves out, so that a new one does not compile until
+/// somebody has decided:
 ///
-///   void pack(auto& in, auto& point) { in(point.value), in(point.z); }
+///   void pack(auto& in, auto& point) {
+///     auto& [value, z, name] = point;  // the name is kept elsewhere
+///     in(value), in(z);
+///   }
 ///
 /// Sizes of vectors and lists stand before what they count.
 class Packer {

@@ -8,12 +8,15 @@ namespace whirl::inline io {
 
 /// All of a point but the names of its contacts; mean slips are not known of orbits.
 void pack_point(auto& in, auto& point) {
-  in(point.value), in(point.z), in(point.tangent), in(point.step), in(point.residual);
-  in(point.multipliers);
-  in.size(point.contacts);
-  for (auto& c : point.contacts) {
-    in(c.duty), in(c.impacts), in(c.sticking);
-    in(c.max_normal), in(c.max_tangential), in(c.touch_time);
+  auto& [value, z, tangent, step, multipliers, residual, contacts] = point;
+  in(value), in(z), in(tangent), in(step), in(residual);
+  in(multipliers);
+  in.size(contacts);
+  for (auto& contact : contacts) {
+    auto& [name, duty, impacts, sticking, max_normal, max_tangential, mean_slip, touch_time] =
+        contact;
+    in(duty), in(impacts), in(sticking);
+    in(max_normal), in(max_tangential), in(touch_time);
   }
 }
 

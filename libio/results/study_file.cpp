@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libbase/numerics/arithmetic.hpp"
+#include "libbase/system/arithmetic.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/call.hpp"

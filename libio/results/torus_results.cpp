@@ -11,18 +11,23 @@ namespace whirl::inline io {
 
 namespace {
 
+/// Only circles that were found are kept: none has a failure.
 void pack_circle(auto& in, auto& torus) {
-  auto& circle = torus.circle;
-  in(circle.points), in(circle.rotation), in(circle.period), in(circle.coordinate);
-  in(circle.residual), in(circle.tail), in(circle.exponents), in(circle.along);
-  in(torus.motion_rotation);
+  auto& [circle, motion_rotation, walks, is_complete] = torus;
+  auto& [points, rotation, period, coordinate, residual, tail, exponents, along, failure] = circle;
+  in(points), in(rotation), in(period), in(coordinate);
+  in(residual), in(tail), in(exponents), in(along);
+  in(motion_rotation);
 }
 
 /// A walk goes on from its first point and its last one.
 void pack_walk(auto& in, auto& walk, auto& branch) {
   in(branch.period);
   in.size(walk.points);
-  for (auto& row : walk.points) in(row.value), in(row.rotation), in(row.growth), in(row.tail);
+  for (auto& row : walk.points) {
+    auto& [value, rotation, growth, tail] = row;
+    in(value), in(rotation), in(growth), in(tail);
+  }
   if (walk.points.empty()) return;
   pack_point(in, branch.points.front());
   pack_point(in, branch.points.back());
