@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libdyn/system/film_equilibrium.hpp"
+#include "libdyn/system/scene_at_speed.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
 
@@ -102,6 +103,11 @@ std::shared_ptr<const Scene> ModelFamily::scene(const Model& member) const {
   }
   if (on && on->system.Omega == member.speed) {
     return std::make_shared<const Scene>(with_contacts(*on, member));
+  }
+  if (on) {
+    if (auto moved = scene_at_speed(*on, member)) {
+      return std::make_shared<const Scene>(*std::move(moved));
+    }
   }
   on = on ? std::make_shared<const Scene>(make_scene(on->assembler, member, ReductionEstimate::no))
           : whole();

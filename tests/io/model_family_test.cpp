@@ -119,6 +119,31 @@ TEST(ModelFamily, SeveralParametersGoTogether) {
   }
 }
 
+// Other speeds take over what does not depend on them: nothing of damped modes, of a tolerance, and
+// of damping that turns with the shaft.
+TEST(ModelFamily, SpeedsAreThoseOfTheWholeModel) {
+  const std::string models = WHIRL_SOURCE_DIR "/models/";
+  const auto base_of = [&](const std::string& name, const std::vector<std::string>& sets) {
+    return read_model(models + name, sets);
+  };
+  for (const Model& base :
+       {base_of("two_disk_mac.toml", {}),
+        base_of("two_disk_mac.toml", {"reduction.method=\"damped\""}),
+        base_of("two_disk_mac.toml", {"damping.rayleigh.stiffness=1e-5"}),
+        base_of("jeffcott_stator.toml", {}), base_of("two_disk_oil_film.toml", {})}) {
+    SCOPED_TRACE(base.path);
+    const ParameterAxis speed = axis("operation.speed=3000 rpm");
+    const ModelFamily family(base, {speed});
+    for (const double Omega : {300.0, 460.0, 0.0, 300.0}) {
+      const Model whole = parse_model(base.source, base.path, speed.assignments_of(Omega));
+      const Scene expected = make_scene(whole, ReductionEstimate::no);
+      const auto scene = family.scene(std::vector{Omega});
+      EXPECT_EQ(scene->system.Omega, Omega);
+      EXPECT_EQ(numbers_of(*scene), numbers_of(expected)) << Omega;
+    }
+  }
+}
+
 TEST(ModelFamily, RemembersItsLastMembers) {
   const Model base = read_model(two_disk);
   const ModelFamily family(base, {axis("operation.speed=3000 rpm")});
