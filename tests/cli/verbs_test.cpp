@@ -294,17 +294,5 @@ TEST_F(VerbsOfTheProgram, StartNoMoreThreadsThanTheLimit) {
   EXPECT_EQ(outcome.err, "--threads 1025: expected a whole number from 1 to 1024\n");
 }
 
-TEST(Readme, NamesEveryVerb) {
-  std::set<std::string> listed, known;
-  for (const auto& cells : rows_of(content(WHIRL_SOURCE_DIR "/README.md"))) {
-    const std::vector<std::string> names = code_in(cells.at(0));
-    if (names.empty() || !names[0].starts_with("whirl ")) continue;
-    listed.insert(names[0].substr(6));
-    listed.insert(names.begin() + 1, names.end());
-  }
-  for (const Verb& verb : verbs()) known.emplace(verb.name);
-  EXPECT_EQ(listed, known);
-}
-
 }  // namespace verbs_test
 }  // namespace whirl::test
