@@ -2,8 +2,9 @@
 // rotors that are no proven orbits, averaged over T revolutions and over far more. Chaos that ends
 // in a regular motion meanwhile has no limit of its own, and is counted apart.
 //
-//   whirl_exponent_coverage [motions] [revolutions of the limit]    prints the table of
-//   docs/validation.md
+//   whirl_exponent_coverage [motions] [revolutions of the limit]
+//
+// prints the table of docs/validation.md
 
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
 // Twin experiments: a rotor's own motion with noise, and the parameters that a fit finds in it.
 //
-//   whirl_fit_twins [records] [how far off the starts are, 0 to 1] [twin]    prints a table of
-//   docs/benchmarks.md
+//   whirl_fit_twins [records] [how far off the starts are, 0 to 1] [twin]
+//
+// prints a table of docs/benchmarks.md
 
 #include <fmt/format.h>
 

@@ -1,8 +1,9 @@
 // What keeping a large study costs: rows of a map that cost nothing to compute, kept as a study's
 // are.
 //
-//   whirl_growing_study [points] [points of a saving] [FILE.h5]    prints the table of
-//   docs/benchmarks.md
+//   whirl_growing_study [points] [points of a saving] [FILE.h5]
+//
+// prints the table of docs/benchmarks.md
 //
 // The file is kept where it is named, for what else is done with it.
 

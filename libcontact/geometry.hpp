@@ -9,11 +9,11 @@
 ///   static constexpr bool may_stick;          friction may switch its sign at once and stick
 ///   static constexpr bool takes_offset;       the clearance may lie off the rotor's axis
 ///   static constexpr bool turns;              the place turns with the rotor: the phase matters
-///   static constexpr auto fields();           keys of one that laws share
-///   (libbase/structs/field.hpp) int places() const;                       of one contact of the
-///   model Self place(i, Omega) const;               number i of them at a spin [rad/s] double
-///   arm() const;                       of the closing motion, u = arm times it [m, or 1] double
-///   tip_radius() const;                of the place about the rotor's axis, 0: at u [m]
+///   static constexpr auto fields();           keys of one that laws share (struct field)
+///   int places() const;                       of one contact of the model
+///   Self place(i, Omega) const;               number i of them at a spin [rad/s]
+///   double arm() const;                       of the closing motion, u = arm times it [m, or 1]
+///   double tip_radius() const;                of the place about the rotor's axis, 0: at u [m]
 ///   std::optional<double> rim_radius() const; that slips; nothing: the contact says it [m]
 ///   std::optional<Vec2> direction() const;    the one in which it is met; nothing: all around
 ///   ContactGap<T> gap(space, phase, motion) const;   kinematics, for doubles and duals

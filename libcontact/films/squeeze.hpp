@@ -28,8 +28,9 @@ constexpr auto choices(FilmExtent) {
 ///
 ///   short, full   F = -4 pi s (Q v + 3 (x, y) (x, y).v) / Q^(5/2),   s = viscosity R L^3 / (4 c^2)
 ///   short, half   half of it is full of oil, that which is squeezed: as of law "short"
-///   long, full    F = -2 pi l (2 Q v + 3 (x, y) (x, y).v) / ((3 - Q) Q^(3/2)),   l = 6 viscosity
-///   R^3 L / c^2 long, half    that half, with the pressure of the surroundings at both of its ends
+///   long, full    F = -2 pi l (2 Q v + 3 (x, y) (x, y).v) / ((3 - Q) Q^(3/2)),
+///                 l = 6 viscosity R^3 L / c^2
+///   long, half    that half, with the pressure of the surroundings at both of its ends
 ///
 /// Along t from one end of that half to the other, with p = 2 |v|, H = 1 - X cos t - Y sin t:
 ///

@@ -45,9 +45,9 @@ struct SteadyRecord {
 /// @param record  noise may be empty; samples with a probe missing are left out
 /// @param speed   of the rotor [rad/s]
 /// @throws ModelError  for fewer than four periods or eight samples a revolution, for a probe
-/// without
-///                     readings, and for motions that are not steady, with figures and, if there is
-///                     one up to four times as long, with the period after which they repeat
+///                     without readings, and for motions that are not steady, with figures and, if
+///                     there is one up to four times as long, with the period after which they
+///                     repeat
 SteadyRecord steady_record(const FitRecord& record, double speed,
                            const SteadyOptions& options = {});
 

@@ -13,8 +13,8 @@ namespace whirl::inline dyn {
 
 /// Equations of motion, forces of few displacements apart.
 ///
-///   eta'' + D eta' + K eta = f0 + fc cos(phase) + fs sin(phase) + sum_j B_j g_j(phase, U_j eta,
-///   U_j eta')
+///   eta'' + D eta' + K eta = f0 + fc cos(phase) + fs sin(phase)
+///                            + sum_j B_j g_j(phase, U_j eta, U_j eta')
 struct HarmonicProblem {
   Mat K, D;
   Vec f0, fc, fs;

@@ -71,10 +71,11 @@ struct Classification {
   /// the decay that was seen; 0: none was seen.
   long settles_after = 0;
   /// Of the set that the sections at phase 0 lie on: 1 for a closed curve (see
-  /// section_geometry.hpp); NaN where the orbit is proven, or too few sections are known.
+  /// libbase/numerics/fractal_dimension.hpp); NaN where the orbit is proven, or too few sections
+  /// are known.
   double section_dimension = std::numeric_limits<double>::quiet_NaN();
-  long revolutions =
-      0;               ///< that contacts were measured over: the period, or all that were averaged
+  /// That contacts were measured over: the period, or all that were averaged.
+  long revolutions = 0;
   long transient = 0;  ///< revolutions until the motion was known to be periodic, or all
   std::vector<ContactMeasure> contacts;  ///< without mean slips
   std::vector<double> sections;          ///< states at phase 0, the last ones, if asked for

@@ -16,8 +16,9 @@ namespace whirl::inline dyn {
 /// lie between them, so that kinks cost no accuracy. What jumps at an event has its share in the
 /// slopes:
 ///
-///   d/dm int g d(theta) = int dg/dm d(theta) + sum [g] (dh/dm) / |dh/d(theta)|,   h = 0 at the
-///   event
+///   d/dm int g d(theta) = int dg/dm d(theta) + sum [g] (dh/dm) / |dh/d(theta)|
+///
+/// with h = 0 at the event.
 ///
 /// Exact friction slides with the sign of its slip. It cannot stick here: see sticks_on.
 std::vector<PortForces> port_forces(const ContactSystem& system);

@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 /// Series of u, the displacement of the disk, and of its products with the turning axes
 /// e = (cos, sin)(Omega t) and f = (-sin, cos)(Omega t). A tip at the angle a is at
 ///
-///   d = u + R (cos a e + sin a f),   d . d - (R + c)^2 = u . u + 2 R (cos a u . e + sin a u . f) -
-///   c (2 R + c)
+///   d = u + R (cos a e + sin a f),
+///   d . d - (R + c)^2 = u . u + 2 R (cos a u . e + sin a u . f) - c (2 R + c)
 ///
 /// in which the large R^2 do not appear: a blade costs one line, and keeps its digits.
 template <class P>

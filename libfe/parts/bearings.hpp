@@ -5,18 +5,15 @@
 ///
 ///   static constexpr std::string_view name;      the word in the model file
 ///   static constexpr std::string_view told_by;   the key that tells this kind where the word is
-///   left
-///                                                out; empty: none does. The first kind of the list
-///                                                is meant where nothing tells another one
+///                                                left out; empty: none does. The first kind of
+///                                                the list is meant where nothing tells another
 ///   static constexpr auto fields();              keys, units, ranges, meanings
 ///   BearingCoefficients at(Omega, omega);        at a spin and a whirl frequency [rad/s]
 ///   bool depends_on_speed();                     whether the coefficients change with the spin
-///   bool depends_on_whirl();                     and with the frequency at which the journal
-///   whirls std::span<const double> speeds();            speeds that it was told, not descending
-///   [rad/s]:
-///                                                between them coefficients at one whirl frequency
-///                                                have no extremes, beyond them they stay; empty:
-///                                                it was told none
+///   bool depends_on_whirl();                     and with the frequency of the journal's whirl
+///   std::span<const double> speeds();            those that it was told, ascending [rad/s]:
+///                                                between them coefficients at one frequency have
+///                                                no extremes, beyond them they stay; empty: none
 ///   std::span<const double> whirls();            the same of whirl frequencies, in any order
 ///
 /// Coefficients are those of motions e^(i omega t). They are real, so that they hold for either

@@ -27,8 +27,8 @@ struct ImportedModel {
 /// Shear coefficients of ROSS's Hutchinson are written as numbers, since it has 1 + nu where
 /// [Hutchinson2001] has its square:
 ///
-///   kappa = 6 (1 + r^2)^2 (1 + nu) / ((1 + r^2)^2 (7 + 12 nu + 4 nu^2) + 4 r^2 (5 + 6 nu + 2
-///   nu^2))
+///   kappa = 6 (1 + r^2)^2 (1 + nu)
+///           / ((1 + r^2)^2 (7 + 12 nu + 4 nu^2) + 4 r^2 (5 + 6 nu + 2 nu^2))
 ///
 /// with r the inner over the outer diameter.
 ///

@@ -77,8 +77,8 @@ TEST(ShortFilm, IsTheIntegralOfItsPressure) {
 
 // A journal that only turns, at eccentricity e (Ocvirk's load, half of the film):
 //
-//   |F| = e (16 e^2 + pi^2 (1 - e^2))^(1/2) / (1 - e^2)^2,   tan(attitude) = pi (1 - e^2)^(1/2) /
-//   (4 e)
+//   |F| = e (16 e^2 + pi^2 (1 - e^2))^(1/2) / (1 - e^2)^2,
+//   tan(attitude) = pi (1 - e^2)^(1/2) / (4 e)
 TEST(ShortFilm, CarriesTheLoadOfTheTextbook) {
   for (const double e : {1e-6, 0.01, 0.3, 0.6, 0.9, 0.99, 0.9999}) {
     const Force f = force(e, 0.0, e, 0.0);

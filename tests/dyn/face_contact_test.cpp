@@ -58,9 +58,10 @@ struct OverhungDisk {
   /// Accelerations of (u_x, u_y, gamma_x, gamma_y), term by term.
   ///
   ///   m ux'' + (D q')_1 + k11 ux - k12 gy = m e n^2 cos nt + phiL (mu uy - ux) + phia mua sin tc
-  ///   m uy'' + (D q')_2 + k11 uy + k12 gx = m e n^2 sin nt - m g - phiL (mu ux + uy) - phia mua
-  ///   cos tc It gx'' + Ip n gy' + (D q')_3 + k12 uy + k22 gx = -rp phia sin tc It gy'' - Ip n gx'
-  ///   + (D q')_4 - k12 ux + k22 gy = +rp phia cos tc
+  ///   m uy'' + (D q')_2 + k11 uy + k12 gx
+  ///       = m e n^2 sin nt - m g - phiL (mu ux + uy) - phia mua cos tc
+  ///   It gx'' + Ip n gy' + (D q')_3 + k12 uy + k22 gx = -rp phia sin tc
+  ///   It gy'' - Ip n gx' + (D q')_4 - k12 ux + k22 gy = +rp phia cos tc
   ///
   /// @param share  of mua that acts, by the slip velocity
   template <class Share>

@@ -37,8 +37,8 @@ struct Impact {
 /// An impact of a free mass at v on a damped Hertz spring at rest, m d'' = -k d^(3/2) (1 + b d')
 /// with b = (3/2) alpha, by quadrature in the plane of depth and rate:
 ///
-///   (2/5) (k / m) d^(5/2) = int_{d'}^v s / (1 + b s) ds,   dt = -dd' / ((k / m) d^(3/2) (1 + b
-///   d'))
+///   (2/5) (k / m) d^(5/2) = int_{d'}^v s / (1 + b s) ds,
+///   dt = -dd' / ((k / m) d^(3/2) (1 + b d'))
 ///
 /// @source [HuntCrossley1975]
 struct DampedImpact {

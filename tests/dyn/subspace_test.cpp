@@ -15,8 +15,8 @@ constexpr double pi = std::numbers::pi;
 
 /// Covariances of a chain under white noise on its modes, which are independent of each other:
 ///
-///   R_k = sum over j of phi_j phi_j^T e^(-zeta w t) (cos w_d t + zeta / sqrt(1 - zeta^2) sin w_d
-///   t)
+///   R_k = sum over j of phi_j phi_j^T e^(-zeta w t)
+///                       (cos w_d t + zeta / sqrt(1 - zeta^2) sin w_d t)
 OutputProducts exact_covariances(const test::MassChain& chain, double zeta, double spacing,
                                  int lags) {
   OutputProducts products{{}, 1.0};

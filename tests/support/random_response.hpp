@@ -55,8 +55,9 @@ inline Mat random_response(const Mat& M, const Mat& C, const Mat& K, double spac
 
 /// What channels read of modes that noise drives, each by itself: y(t) = Re sum shape z(t),
 ///
-///   z(t + dt) = e^(lambda dt) z(t) + sqrt(1 - |e^(lambda dt)|^2) w(t),   w complex, of variance
-///   one
+///   z(t + dt) = e^(lambda dt) z(t) + sqrt(1 - |e^(lambda dt)|^2) w(t)
+///
+/// with complex w of variance one.
 ///
 /// so that covariances at the samples are those of the eigenvalues, exactly.
 ///
@@ -94,8 +95,8 @@ struct MassChain {
 };
 /// With the same damping ratio in every mode.
 ///
-///   omega_j = 2 sqrt(k / m) sin((2 j - 1) pi / (2 (2 n + 1))),   phi_ij ~ sin((2 j - 1) i pi / (2
-///   n + 1))
+///   omega_j = 2 sqrt(k / m) sin((2 j - 1) pi / (2 (2 n + 1))),
+///   phi_ij ~ sin((2 j - 1) i pi / (2 n + 1))
 ///
 /// @source [Blevins1979], chains of equal masses
 inline MassChain mass_chain(int n, double m, double k, double zeta) {
