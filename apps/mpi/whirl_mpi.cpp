@@ -10,9 +10,9 @@
 
 #include "apps/mpi/mpi_process.hpp"
 #include "apps/run_program.hpp"
-#include "libbase/numerics/arithmetic.hpp"
 #include "libbase/structs/digest.hpp"
 #include "libbase/structs/travel.hpp"
+#include "libbase/system/arithmetic.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/text/passing_file.hpp"
 #include "libio/text/terminal.hpp"

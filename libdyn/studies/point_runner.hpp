@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/processes/piece_sizes.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/piece_runner.hpp"
+#include "libdyn/studies/piece_sizes.hpp"
 #include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/point_work.hpp"
 #include "libdyn/taylor/lanes.hpp"

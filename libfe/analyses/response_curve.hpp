@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "libbase/failure.hpp"
+#include "libfe/analyses/amplification.hpp"
 #include "libfe/analyses/unbalance.hpp"
-#include "libfe/lateral/amplification.hpp"
 
 namespace whirl::inline fe {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "libbase/structs/field.hpp"
-#include "libfe/lateral/amplification.hpp"
+#include "libfe/analyses/amplification.hpp"
 
 namespace whirl::inline fe {
 

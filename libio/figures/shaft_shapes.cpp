@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/mesh/shaft_line.hpp"
+#include "libfe/assembly/shaft_line.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/linear/unbalance_study.hpp"
-#include "libfe/lateral/amplification.hpp"
+#include "libfe/analyses/amplification.hpp"
 #include "libio/figures/bode_curves.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
-#include "libfe/lateral/amplification.hpp"
+#include "libfe/analyses/amplification.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl::inline io {

@@ -1,6 +1,6 @@
 #include "libverbs/command/arithmetic.hpp"
 
-#include "libbase/numerics/arithmetic.hpp"
+#include "libbase/system/arithmetic.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/text/option_values.hpp"
 

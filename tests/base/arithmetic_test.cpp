@@ -1,6 +1,6 @@
 // The mathematical library by its values.
 
-#include "libbase/numerics/arithmetic.hpp"
+#include "libbase/system/arithmetic.hpp"
 
 #include <gtest/gtest.h>
 

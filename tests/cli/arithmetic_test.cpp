@@ -1,6 +1,6 @@
 // The arithmetic of a study: what its file says, what is asked for, and what goes on from it.
 
-#include "libbase/numerics/arithmetic.hpp"
+#include "libbase/system/arithmetic.hpp"
 
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
 // Peaks of a response: amplification factors in closed form, and the margins they ask for.
 
-#include "libfe/lateral/amplification.hpp"
+#include "libfe/analyses/amplification.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ std::vector<double> speeds_to(double last, double step) {
 
 // Response of a Jeffcott rotor to unbalance, w = speed over natural frequency:
 //   r = e w^2 / ((1 - w^2)^2 + (2 zeta w)^2)^(1/2), highest at w = (1 - 2 zeta^2)^(-1/2) with
-//   e / (2 zeta (1 - zeta^2)^(1/2)); half the power at 1 / w^2 = 1 - 2 zeta^2 +- 2 zeta (1 -
-//   zeta^2)^(1/2)
+//   e / (2 zeta (1 - zeta^2)^(1/2)); half the power at
+//   1 / w^2 = 1 - 2 zeta^2 +- 2 zeta (1 - zeta^2)^(1/2)
 double jeffcott(double w, double zeta, double e) {
   return e * w * w / std::hypot(1.0 - w * w, 2.0 * zeta * w);
 }

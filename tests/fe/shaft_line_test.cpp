@@ -1,6 +1,6 @@
 // The shaft between its nodes: shape functions, and shapes drawn with them.
 
-#include "libfe/mesh/shaft_line.hpp"
+#include "libfe/assembly/shaft_line.hpp"
 
 #include <gtest/gtest.h>
 

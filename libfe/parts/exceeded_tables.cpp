@@ -1,4 +1,4 @@
-#include "libfe/assembly/exceeded_tables.hpp"
+#include "libfe/parts/exceeded_tables.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "libfe/lateral/amplification.hpp"
+#include "libfe/analyses/amplification.hpp"
 
 #include <algorithm>
 #include <cmath>

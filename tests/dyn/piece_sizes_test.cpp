@@ -1,6 +1,6 @@
 // How points of a study are cut into pieces: threads busy, results soon, lanes full.
 
-#include "libbase/processes/piece_sizes.hpp"
+#include "libdyn/studies/piece_sizes.hpp"
 
 #include <gtest/gtest.h>
 

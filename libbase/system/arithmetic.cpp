@@ -1,4 +1,4 @@
-#include "libbase/numerics/arithmetic.hpp"
+#include "libbase/system/arithmetic.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

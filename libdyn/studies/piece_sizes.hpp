@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace whirl::inline base {
+namespace whirl::inline dyn {
 
 /// Sizes of the pieces that points are cut into, from what they cost so far.
 ///
@@ -70,4 +70,4 @@ class PieceSizes {
   double cost_ = 0.0;      ///< of a point [s]; 0: not known yet
 };
 
-}  // namespace whirl::inline base
+}  // namespace whirl::inline dyn

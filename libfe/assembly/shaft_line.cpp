@@ -1,4 +1,4 @@
-#include "libfe/mesh/shaft_line.hpp"
+#include "libfe/assembly/shaft_line.hpp"
 
 #include <array>
 #include <cassert>
