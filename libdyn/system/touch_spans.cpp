@@ -51,6 +51,7 @@ std::vector<double> ContactPath::zeros(const std::function<double(const ContactF
       found.push_back(bracketed_root(value, a, fa, b, fb, sharpest * turn));
   };
   const std::size_t N = angles_.size() - 1;
+  std::vector<double> tops;  // of short touches: two neighbors may see the same one
   for (std::size_t i = 0; i < N; ++i) {
     const double here = f(grid_[i]), next = f(grid_[i + 1]);
     const double a = angles_[i], b = angles_[i + 1];
@@ -60,8 +61,14 @@ std::vector<double> ContactPath::zeros(const std::function<double(const ContactF
     if (looks_between && here < 0.0 && next < 0.0 && last < 0.0 && bend < 0.0 &&
         std::abs(slope) < -bend && here - 0.5 * slope * slope / bend > 0.0) {
       const double top = a - slope / bend * (b - a), at_top = value(top);
-      add(a - (b - a), last, top, at_top);
-      add(top, at_top, b, next);
+      const bool is_known = std::any_of(tops.begin(), tops.end(), [&](double known) {
+        return std::abs(std::remainder(top - known, turn)) < 0.5 * (b - a);
+      });
+      if (!is_known) {
+        add(a - (b - a), last, top, at_top);
+        add(top, at_top, b, next);
+        tops.push_back(top);
+      }
     }
     add(a, here, b, next);
   }
