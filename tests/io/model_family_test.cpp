@@ -22,11 +22,11 @@ ParameterAxis axis(const std::string& text) {
 }
 
 /// All that a scene is integrated with, as numbers.
-std::vector<double> numbers_of(const Scene& scene) {
+std::vector<double> numbers_of(const Scene& scene, double size = 1e-2) {
   const ContactSystem& system = scene.contacts;
   const auto n = system.coordinates();
   Vec y = Vec::Zero(2 * n);
-  for (int i = 0; i < 2 * n; ++i) y(i) = 1e-2 * std::sin(1.0 + i);  // contacts touch
+  for (int i = 0; i < 2 * n; ++i) y(i) = size * std::sin(1.0 + i);  // contacts touch
   std::vector<double> numbers{system.phase_rate(), system.length_scale()};
   Vec acceleration(n);
   system.acceleration(0.3, y.data(), acceleration.data());
@@ -139,7 +139,8 @@ TEST(ModelFamily, SpeedsAreThoseOfTheWholeModel) {
       const Scene expected = make_scene(whole, ReductionEstimate::no);
       const auto scene = family.scene(std::vector{Omega});
       EXPECT_EQ(scene->system.Omega, Omega);
-      EXPECT_EQ(numbers_of(*scene), numbers_of(expected)) << Omega;
+      const double size = base.films.empty() ? 1e-2 : 1e-5;  // journals stay in their bearings
+      EXPECT_EQ(numbers_of(*scene, size), numbers_of(expected, size)) << Omega;
     }
   }
 }

@@ -94,7 +94,7 @@ TEST(RowTable, NumbersHaveNoMinusZeroAndNoEndlessDigits) {
   EXPECT_EQ(texts::number_text(-0.5, ".2f"), "-0.50");
   EXPECT_EQ(texts::number_text(1.23456e12, ".1f"), "1.235e+12");
   EXPECT_EQ(texts::number_text(nan, ".1f"), "-");
-  EXPECT_EQ(texts::number_text(-1.0 / 0.0, ".1f"), "-inf");
+  EXPECT_EQ(texts::number_text(-1.0 / 0.0, ".1f"), "-∞");
 }
 
 }  // namespace whirl::row_table_test
