@@ -75,7 +75,7 @@ class Axis {
   ticks(most) {
     if (!this.log) return this.rounds(most);
     const powers = this.powers(most);
-    return powers.filter((t) => t.label).length < 2 ? this.rounds(most) : powers;
+    return powers.filter((t) => t.label).length < 2 ? this.rounds(most).filter((t) => t.value > 0) : powers;
   }
   rounds(most) {
     const wide = (this.last - this.first) / most, power = 10 ** Math.floor(Math.log10(wide));

@@ -11,6 +11,7 @@
 #include "libbase/numerics/newton.hpp"
 #include "libbase/numerics/roots.hpp"
 #include "libbase/numerics/smooth_average.hpp"
+#include "libbase/system/memory.hpp"
 
 namespace whirl::inline dyn {
 
@@ -26,6 +27,7 @@ constexpr Eigen::Index scanned_sections =
     1024;                               ///< sections in which a line is looked for at first
 constexpr double sharpest_line = 1e-9;  ///< share of a line's width, to which it is found
 constexpr double moves = 1e-9;          ///< scales that a motion moves at least
+constexpr double matrices = 3.0;        ///< of all unknowns: one, its factors, the next one
 
 /// Shift of a trigonometric polynomial by its values at N even angles: the value at theta + angle
 /// is the sum of D(theta_i - theta_j + angle) x_j with Dirichlet's kernel D; and its derivative.
@@ -332,6 +334,10 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
       }
     }
     circle.points = points;
+    const auto unknowns = static_cast<double>(points.size() + 1);
+    require_memory("harmonics", matrices * sizeof(double) * unknowns * unknowns,
+                   fmt::format("a circle with {} harmonics of {} states", K, points.rows()),
+                   "reduce the rotor to fewer coordinates");
     const auto at_unknowns = [&](const Vec& x) {
       return turned(flow, scale, x, options.period, coordinate, WithTangent::yes, 1.0);
     };

@@ -7,6 +7,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/random.hpp"
+#include "libdyn/studies/stopped_flow.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -59,15 +60,6 @@ std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double fre
   layout.rate(y) = nearest->lambda * q;
   y /= reach;
   return Shape{y.real(), y.imag()};
-}
-
-/// A flow that fails from when it is asked to stop.
-AutonomousFlow until(const std::function<bool()>& stops, AutonomousFlow flow) {
-  flow.go = [stops, go = std::move(flow.go)](const Vec& y, double time, WithTangent wanted) {
-    if (!stops()) return go(y, time, wanted);
-    return AutonomousFlow::Result{{}, {}, {}, "stopped"};
-  };
-  return flow;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/studies/orbit_travel.hpp"
 #include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/stopped_flow.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -22,16 +23,6 @@ bool is_same(const PeriodicOrbit& a, const PeriodicOrbit& b, const Vec& scale) {
   return std::any_of(b.states.begin(), b.states.end(), [&](const Vec& y) {
     return (y - a.states[0]).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() < same_state;
   });
-}
-
-/// A flow that fails from when it is asked to stop.
-Flow until(const std::function<bool()>& stops, Flow flow) {
-  flow.go = [stops, go = std::move(flow.go)](std::span<const Vec> starts, long revolutions,
-                                             WithTangent wanted) {
-    if (!stops()) return go(starts, revolutions, wanted);
-    return std::vector<FlowResult>(starts.size(), FlowResult{{}, {}, {}, "stopped"});
-  };
-  return flow;
 }
 
 /// The orbit near where a motion gets, without its tangents; nothing: there is none, or it was

@@ -6,6 +6,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/branch_walk.hpp"
+#include "libdyn/studies/stopped_flow.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -22,10 +23,14 @@ CirclePoint point_of(const BranchPoint& p, const Vec& scale, int period) {
   return {p.value, circle.rotation / period, growth / period, circle.tail};
 }
 
-/// States at phase 0 of every period of the map, a column each.
-Mat sections_of(const Scene& scene, const MotionState& start, int period, long count) {
+/// States at phase 0 of every period of the map, a column each; none: it was stopped.
+Mat sections_of(const Scene& scene, const MotionState& start, int period, long count,
+                const std::function<bool()>& stops) {
   Trajectory motion{.system = &scene.contacts, .state = start, .revolutions = count * period};
-  integrate_single(motion, {.tolerance = section_tolerance, .sections = true});
+  integrate_single(motion, {.tolerance = section_tolerance, .sections = true, .watch = [&](long) {
+                              return !stops || !stops();
+                            }});
+  if (motion.outcome == Outcome::stopped_by_observer) return {};
   if (motion.outcome != Outcome::reached_end) throw NumericalError(motion.failure.text());
   const Eigen::Index n = scene.contacts.size();
   const Eigen::Map<const Mat> all(motion.sections.data(), n, std::ssize(motion.sections) / n);
@@ -46,17 +51,20 @@ std::vector<CirclePoint> TorusBranch::points() const {
   return all;
 }
 
-TorusBranch find_torus(const Scene& scene, const MotionState& start, const TorusOptions& options) {
+TorusBranch find_torus(const Scene& scene, const MotionState& start, const TorusOptions& options,
+                       const std::function<bool()>& stops) {
   const int period = options.circle.period;
-  const Mat sections = sections_of(scene, start, period, options.sections);
-  const Flow flow = flow_of(scene.contacts);
+  const Flow flow = until(stops, flow_of(scene.contacts));
   require_loads_of_a_revolution(flow);
+  const Mat sections = sections_of(scene, start, period, options.sections, stops);
+  if (sections.size() == 0) return {};
   const auto guess = guessed_circle(sections, flow.scale, period, options.circle.harmonics);
   if (!guess) {
     throw NumericalError("the motion has settled on a periodic orbit: there is no circle");
   }
   TorusBranch torus{.circle = find_circle(flow, *guess, options.circle),
                     .motion_rotation = guess->rotation};
+  if (stops && stops()) return {};
   torus.is_complete = torus.circle.is_good() && !options.along;
   return torus;
 }
@@ -111,8 +119,8 @@ TorusBranch grow_torus(const ParameterScenes& scenes, TorusBranch torus,
   if (torus.circle.points.size() == 0) {
     const std::optional<MotionState> start = settled();
     if (!start) return torus;
-    torus = find_torus(*scenes.first, *start, options);
-    if (!torus.circle.is_good()) return torus;
+    torus = find_torus(*scenes.first, *start, options, [&] { return monitor.stops(); });
+    if (torus.circle.points.size() == 0 || !torus.circle.is_good()) return torus;
     if (monitor.save) monitor.save(torus);
   }
   const FlowAt flow_at = [&](double value) { return flow_of(scenes.at(value), *scenes.first); };

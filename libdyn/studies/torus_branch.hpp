@@ -47,8 +47,10 @@ struct TorusBranch {
 /// The circle that a motion moves on; it says itself whether it is one.
 ///
 /// @param start  of the motion, without its transient, at phase 0
+/// @param stops  asked often; true: nothing is found, the circle has no points
 /// @throws NumericalError  if the motion fails or settles on a periodic orbit
-TorusBranch find_torus(const Scene& scene, const MotionState& start, const TorusOptions& options);
+TorusBranch find_torus(const Scene& scene, const MotionState& start, const TorusOptions& options,
+                       const std::function<bool()>& stops = {});
 
 /// Walks along the parameter until the circle locks or breaks, or the range ends.
 ///

@@ -88,7 +88,10 @@ std::vector<Tick> Axis::ticks(int most) const {
   std::vector<Tick> powers = logarithmic_ticks(*this, most);
   const auto labelled =
       std::count_if(powers.begin(), powers.end(), [](const Tick& t) { return !t.label.empty(); });
-  return labelled < 2 ? linear_ticks(*this, most) : powers;
+  if (labelled >= 2) return powers;
+  std::vector<Tick> ticks = linear_ticks(*this, most);
+  std::erase_if(ticks, [](const Tick& t) { return t.value <= 0.0; });  // it has no place here
+  return ticks;
 }
 
 bool can_be_drawn(const Axis& axis) {

@@ -46,7 +46,7 @@ Report run_torus(const Invocation& call, const TorusVerbOptions& asked) {
       keep_torus(setup, study_keeping(call, model, asked.kept, "circles", report.notes), settled);
   if (torus.circle.points.size() == 0) {
     report.text.clear();
-    report.failure = "stopped in the transient";
+    report.failure = "stopped before the circle was found";
     report.status = exit_status::stopped;
     return report;
   }

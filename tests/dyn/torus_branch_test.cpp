@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/support/flows.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace whirl::torus_branch_test {
 
@@ -88,6 +89,18 @@ TEST(TorusBranch, GoesOnWhereItWasStopped) {
       EXPECT_EQ(points[i].growth, whole[i].growth) << stop;
     }
   }
+}
+
+// Neither the motion that the circle is guessed from nor the search for it goes on.
+TEST(TorusBranch, HasNoCircleWhereItWasStopped) {
+  const Scene scene = test::MassInRing{}.scene();
+  MotionState start;
+  start.y = Vec::Zero(scene.contacts.size());
+  int asked = 0;
+  const TorusBranch torus = find_torus(scene, start, {}, [&] { return ++asked > 2; });
+  EXPECT_EQ(torus.circle.points.size(), 0);
+  EXPECT_FALSE(torus.is_complete);
+  EXPECT_LE(asked, 4);
 }
 
 }  // namespace whirl::torus_branch_test

@@ -1,0 +1,35 @@
+#pragma once
+/// Flows that can be stopped: searches for orbits ask for nothing but a flow.
+
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "libdyn/orbits/autonomous_orbit.hpp"
+#include "libdyn/orbits/shooting.hpp"
+
+namespace whirl::inline dyn {
+
+/// A flow that fails from when it is asked to stop.
+/// @param stops  empty: never
+inline Flow until(std::function<bool()> stops, Flow flow) {
+  flow.go = [stops = std::move(stops), go = std::move(flow.go)](
+                std::span<const Vec> starts, long revolutions, WithTangent wanted) {
+    if (!stops || !stops()) return go(starts, revolutions, wanted);
+    return std::vector<FlowResult>(starts.size(), FlowResult{{}, {}, {}, "stopped"});
+  };
+  return flow;
+}
+
+/// The same of one in whose equations time does not occur.
+inline AutonomousFlow until(std::function<bool()> stops, AutonomousFlow flow) {
+  flow.go = [stops = std::move(stops), go = std::move(flow.go)](const Vec& y, double time,
+                                                                WithTangent wanted) {
+    if (!stops || !stops()) return go(y, time, wanted);
+    return AutonomousFlow::Result{{}, {}, {}, "stopped"};
+  };
+  return flow;
+}
+
+}  // namespace whirl::inline dyn
