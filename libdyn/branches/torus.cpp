@@ -252,6 +252,12 @@ Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eige
   return at;
 }
 
+/// Memory of Newton's method for a circle.
+double bytes_of(Eigen::Index states, int harmonics) {
+  const double unknowns = static_cast<double>(states) * (2.0 * harmonics + 1.0) + 1.0;
+  return matrices * sizeof(double) * unknowns * unknowns;
+}
+
 }  // namespace
 
 Vec circle_unknowns(const InvariantCircle& circle, const Vec& scale) {
@@ -316,6 +322,10 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
                             const CircleOptions& options) {
   const Vec& scale = flow.scale;
   InvariantCircle circle = guess;
+  require_memory(
+      "harmonics", bytes_of(scale.size(), options.harmonics),
+      fmt::format("a circle with {} harmonics of {} states", options.harmonics, scale.size()),
+      "reduce the rotor to fewer coordinates");
   for (int K = options.harmonics;; K *= 2) {
     Eigen::Index coordinate = 0;  // that which moves most
     harmonics_of(scale.cwiseInverse().asDiagonal() * circle.points)
@@ -334,10 +344,6 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
       }
     }
     circle.points = points;
-    const auto unknowns = static_cast<double>(points.size() + 1);
-    require_memory("harmonics", matrices * sizeof(double) * unknowns * unknowns,
-                   fmt::format("a circle with {} harmonics of {} states", K, points.rows()),
-                   "reduce the rotor to fewer coordinates");
     const auto at_unknowns = [&](const Vec& x) {
       return turned(flow, scale, x, options.period, coordinate, WithTangent::yes, 1.0);
     };
@@ -358,7 +364,8 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
       return circle;
     }
     std::tie(circle.exponents, circle.along) = across(exponents_of(at.tangents, circle.rotation));
-    if (circle.tail < options.smooth || 2 * K > options.most_harmonics) {
+    const bool fits = bytes_of(scale.size(), 2 * K) < least_of(memory_limits());
+    if (circle.tail < options.smooth || 2 * K > options.most_harmonics || !fits) {
       if (circle.tail > broken) {
         circle.failure = fmt::format(
             "no circle: the highest of {} harmonics are {:.0e} of the largest", K, circle.tail);

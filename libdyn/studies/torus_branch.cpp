@@ -64,7 +64,7 @@ TorusBranch find_torus(const Scene& scene, const MotionState& start, const Torus
   }
   TorusBranch torus{.circle = find_circle(flow, *guess, options.circle),
                     .motion_rotation = guess->rotation};
-  if (stops && stops()) return {};
+  if (!torus.circle.is_good() && stops && stops()) return {};
   torus.is_complete = torus.circle.is_good() && !options.along;
   return torus;
 }

@@ -47,7 +47,8 @@ struct TorusBranch {
 /// The circle that a motion moves on; it says itself whether it is one.
 ///
 /// @param start  of the motion, without its transient, at phase 0
-/// @param stops  asked often; true: nothing is found, the circle has no points
+/// @param stops  asked often; true: the search ends, and the circle has no points unless it was
+/// found
 /// @throws NumericalError  if the motion fails or settles on a periodic orbit
 TorusBranch find_torus(const Scene& scene, const MotionState& start, const TorusOptions& options,
                        const std::function<bool()>& stops = {});

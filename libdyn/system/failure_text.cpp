@@ -41,9 +41,10 @@ std::string failure_text(const ContactSystem& system, const MotionState& state,
     contacts += fmt::format("; journal of oil film \"{}\" at {:.8g} of its clearance", film.name,
                             eccentricity(film, state.y.data(), system.layout()));
   }
-  return fmt::format("{} in revolution {} at {:.3f} of it{}; largest coordinate {:.3g} scales",
-                     what, state.revolution, state.phase / (2.0 * std::numbers::pi), contacts,
-                     (state.y.array() / system.state_scale().array()).abs().maxCoeff());
+  return fmt::format(
+      "{} in revolution {} at {:.3f} of it{}; largest coordinate {:.3g} scales", what,
+      state.revolution, state.phase / (2.0 * std::numbers::pi), contacts,
+      (state.y.array() / system.state_scale().array()).abs().maxCoeff<Eigen::PropagateNaN>());
 }
 
 std::string left_bearing_text(const ReducedFilm& film) {

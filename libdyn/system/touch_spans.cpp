@@ -64,7 +64,7 @@ std::vector<double> ContactPath::zeros(const std::function<double(const ContactF
       const bool is_known = std::any_of(tops.begin(), tops.end(), [&](double known) {
         return std::abs(std::remainder(top - known, turn)) < 0.5 * (b - a);
       });
-      if (!is_known) {
+      if (at_top > 0.0 && !is_known) {
         add(a - (b - a), last, top, at_top);
         add(top, at_top, b, next);
         tops.push_back(top);

@@ -4,7 +4,7 @@
 namespace whirl::inline dyn {
 
 /// Motions without tangents that a batch moves on at once, with the instruction set in use: as many
-/// as two registers hold. A step of fewer takes as long.
+/// as two registers hold, one where it has no registers for lanes. A step of fewer takes as long.
 int lanes_together();
 
 }  // namespace whirl::inline dyn

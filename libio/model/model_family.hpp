@@ -13,8 +13,9 @@
 namespace whirl::inline io {
 
 /// The text is read once, and for a value only that is made again which it changes: a contact's
-/// stiffness needs no mesh and no reduction, a speed no mesh. Members are to the last bit what
-/// parse_model and make_scene make of the same values. May be asked by several threads at once.
+/// stiffness needs no mesh and no reduction, a speed no mesh, and no reduction where neither
+/// matrices nor basis depend on it. Members are to the last bit what parse_model and make_scene
+/// make of the same values. May be asked by several threads at once.
 class ModelFamily {
  public:
   /// @param base  as it was read: its `source` is the text that values are set in

@@ -20,17 +20,20 @@ void pack_circle(auto& in, auto& torus) {
   in(motion_rotation);
 }
 
-/// A walk goes on from its first point and its last one.
-void pack_walk(auto& in, auto& walk, auto& branch) {
-  in(branch.period);
-  in.size(walk.points);
-  for (auto& row : walk.points) {
+/// A walk goes on from its first point and its last one. It keeps no bifurcations, and ends are
+/// columns of the result.
+void pack_walk(auto& in, auto& walk) {
+  auto& [branch, circles] = walk;
+  auto& [period, points, bifurcations, end] = branch;
+  in(period);
+  in.size(circles);
+  for (auto& row : circles) {
     auto& [value, rotation, growth, tail] = row;
     in(value), in(rotation), in(growth), in(tail);
   }
-  if (walk.points.empty()) return;
-  pack_point(in, branch.points.front());
-  pack_point(in, branch.points.back());
+  if (circles.empty()) return;
+  pack_point(in, points.front());
+  pack_point(in, points.back());
 }
 
 }  // namespace
@@ -39,7 +42,7 @@ void write_torus(ResultWriter& file, const TorusBranch& torus, TorusResult resul
   Packer walk;
   pack_circle(walk, torus);
   walk.size(torus.walks);
-  for (const CircleWalk& w : torus.walks) pack_walk(walk, w, w.branch);
+  for (const CircleWalk& w : torus.walks) pack_walk(walk, w);
   result.walk = walk.numbers();
   write_result(file, result);
   write_walk_format(file, TorusResult::group);
@@ -61,7 +64,7 @@ TorusBranch read_torus(const ResultReader& file, Eigen::Index states) {
   for (CircleWalk& w : torus.walks) {
     BranchPoint first, last;
     w.branch.points = {first, last};
-    pack_walk(walk, w, w.branch);
+    pack_walk(walk, w);
     if (w.points.empty()) walk.fail("a walk has no points");
     for (const BranchPoint& p : w.branch.points) {
       if (p.z.size() == unknowns && p.tangent.size() == unknowns) continue;

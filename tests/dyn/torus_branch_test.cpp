@@ -91,7 +91,7 @@ TEST(TorusBranch, GoesOnWhereItWasStopped) {
   }
 }
 
-// Neither the motion that the circle is guessed from nor the search for it goes on.
+// The motion that the circle is guessed from goes no further.
 TEST(TorusBranch, HasNoCircleWhereItWasStopped) {
   const Scene scene = test::MassInRing{}.scene();
   MotionState start;

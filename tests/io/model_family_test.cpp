@@ -126,11 +126,16 @@ TEST(ModelFamily, SpeedsAreThoseOfTheWholeModel) {
   const auto base_of = [&](const std::string& name, const std::vector<std::string>& sets) {
     return read_model(models + name, sets);
   };
+  std::string tolerant = base_of("two_disk_mac.toml", {}).source;  // as many modes as it asks for
+  const std::size_t modes = tolerant.find("modes  = 8");
+  ASSERT_NE(modes, std::string::npos);
+  tolerant.replace(modes, std::string("modes  = 8").size(), "band = 900");
   for (const Model& base :
        {base_of("two_disk_mac.toml", {}),
         base_of("two_disk_mac.toml", {"reduction.method=\"damped\""}),
-        base_of("two_disk_mac.toml", {"damping.rayleigh.stiffness=1e-5"}),
-        base_of("jeffcott_stator.toml", {}), base_of("two_disk_oil_film.toml", {})}) {
+        base_of("two_disk_mac.toml", {"material.steel.internal_damping=1e-5"}),
+        parse_model(tolerant, "tolerant.toml"), base_of("jeffcott_stator.toml", {}),
+        base_of("two_disk_oil_film.toml", {})}) {
     SCOPED_TRACE(base.path);
     const ParameterAxis speed = axis("operation.speed=3000 rpm");
     const ModelFamily family(base, {speed});
