@@ -422,7 +422,7 @@ TEST_F(Study, StopsOnTheSignalsOfSchedulersAndGoesOn) {
 // Searches that would take hours: a single start, or the motions at a single speed.
 TEST_F(Study, SearchesStopOnTheSignalsOfSchedulers) {
   constexpr double patience = 10.0;  // [s], on a busy machine; 5 are promised
-  constexpr std::chrono::milliseconds searches_by_then(is_sanitized ? 4000 : 300);
+  constexpr std::chrono::milliseconds searches_by_then(is_sanitized ? 15000 : 300);
   const auto stopped = [&](const std::vector<std::string>& words) {
     const pid_t child = start(WHIRL_PROGRAM, words);
     wait_for_handler(child, SIGTERM);

@@ -87,9 +87,9 @@ TEST(OrbitSearch, StoppedItHasWhatItsFirstStartsLedTo) {
   std::atomic<bool> is_stopped = false;
   const OrbitSearch part =
       search_orbits(scene, around, options,
-                    {.progress = [&](long done, long) { is_stopped = done >= 5; },
+                    {.progress = [&](long done, long) { is_stopped = done >= 40; },
                      .is_stopped = [&] { return is_stopped.load(); }});
-  EXPECT_GE(part.done, 4);  // two threads: one of the first five may not be done
+  EXPECT_GE(part.done, 1);  // of 40, unless the first one waits for a processor all the time
   EXPECT_LT(part.done, 400);
   options.starts = part.done;
   expect_same_orbits(search_orbits(scene, around, options, {}), part);
