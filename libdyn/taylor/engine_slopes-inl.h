@@ -336,6 +336,7 @@ HWY_ATTR void Engine<P>::note_jump(size_t i, EventKind kind) {
 template <class P>
 HWY_ATTR void Engine<P>::jump_deviations() {
   auto& slopes = *slopes_;
+  if (slopes.along.empty()) return;  // as where there are no tangents
   P* deviation = tangents_->columns.data();
   for (size_t d = 0; d < slopes.along.size(); ++d) {
     P* rates = layout_.rates_at(deviation);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/motion_slopes.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::instruction_sets_test {
@@ -120,6 +121,31 @@ TEST(InstructionSets, AreTheSameBitByBitWhereBothFuse) {
       EXPECT_EQ(found[k][i].state.y, found[0][i].state.y) << sets[k] << ' ' << i;
       EXPECT_EQ(found[k][i].exponents, found[0][i].exponents) << sets[k] << ' ' << i;
       EXPECT_EQ(found[k][i].contacts[0].max_normal, found[0][i].contacts[0].max_normal);
+    }
+  }
+}
+
+// Derivatives by the start, and small deviations, over some impacts: with deviations and without.
+TEST(InstructionSets, GiveTheSameSlopes) {
+  constexpr double rounding = 1e-9;  // of derivatives that impacts have made large
+  const test::RotorStator p{.Omega = 136.0, .kC = 150e6, .mu = 0.1};
+  const Scene scene = p.scene();
+  const MotionState start = test::start_of(p.model(), scene);
+  const double end = 3.0 * scene.contacts.period();
+  const Mat deviations = Mat(scene.contacts.state_scale().asDiagonal()).leftCols(2);
+  for (const Mat& carried : {Mat(), deviations}) {
+    std::vector<MotionSlopes> found;
+    for (const std::string& set : instruction_sets()) {
+      use_instruction_set(set);
+      found.push_back(motion_slopes(scene.contacts, start, {{end}}, {}, {.deviations = carried}));
+      ASSERT_EQ(found.back().outcome, Outcome::reached_end) << set;
+    }
+    use_instruction_set("");
+    EXPECT_FALSE(found[0].events.empty());
+    for (const MotionSlopes& other : found) {
+      const Mat &mine = found[0].by_start.back(), &its = other.by_start.back();
+      EXPECT_LT((its - mine).norm(), rounding * mine.norm());
+      EXPECT_LT((other.states - found[0].states).norm(), rounding * found[0].states.norm());
     }
   }
 }
