@@ -98,8 +98,7 @@ std::string mismatch(const std::vector<Identity>& all) {
       return fmt::format(
           "rank {} on {} has other mathematical functions ({}) than rank 0 on {} ({}), whose last "
           "digits differ; --isa baseline takes those that all processors have, and one image of "
-          "the "
-          "system for all ranks the same library",
+          "the system for all ranks the same library",
           i, other.host, other.mathematics, first.host, first.mathematics);
     }
   }

@@ -8,9 +8,8 @@ namespace whirl::inline base {
 /// the sections of a motion with two frequencies make it, more for a torus of three or for chaos.
 ///
 /// The number of neighbors within a distance grows as its power D:  D = ln(k_2 / k_1) over the mean
-/// of ln(T_2 / T_1), with the distances of the k_1-th and k_2-th nearest neighbors of each point, 8
-/// and
-/// 32. The error is some 0.1 for 400 points.
+/// of ln(T_2 / T_1), with the distances T of the k_1 = 8th and k_2 = 32nd nearest neighbors of each
+/// point. The error is some 0.1 for 400 points.
 ///
 /// @param points  one per column, at least 96; in units in which all directions count alike
 /// @return        NaN for fewer points

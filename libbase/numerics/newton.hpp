@@ -71,8 +71,7 @@ struct NewtonSearch {
 /// one whole steps converge quadratically.
 ///
 /// @param at     where it begins and ends: any x with `double residual`, the norm of r there,
-/// infinite
-///               or NaN where r is not defined
+///               infinite or NaN where r is not defined
 /// @param step   x -> J^-1 r there, as an std::optional<Vec>
 /// @param moved  (x, dx) -> x - dx with its residual
 /// @source [StoerBulirsch2002], 5.3 and 5.4

@@ -21,7 +21,7 @@ struct MemoryLimits {
 ///
 /// @param root  under which /proc and /sys/fs/cgroup are looked for
 /// @source proc(5), getrlimit(2); Linux, Documentation/admin-guide/cgroup-v2.rst,
-/// cgroup-v1/memory.rst
+///         cgroup-v1/memory.rst
 MemoryLimits memory_limits(const std::filesystem::path& root = "/");
 
 /// The smallest of them [bytes]; without any it is infinite.

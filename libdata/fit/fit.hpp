@@ -85,7 +85,7 @@ struct Fit {
 /// (over_least_deviation).
 ///
 /// @throws ModelError  for records without readings, parameters without a size or outside their
-/// bounds
+///                     bounds
 /// @source [Bock1983]; covariance as [Seber2003], sec. 2.1
 Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
         const FitOptions& options = {});

@@ -27,7 +27,7 @@ enum class FitGaps {
 /// @param gaps     what gaps are
 /// @param is_held  of the unknowns whose covariance is wanted, whether a bound holds them
 /// @return         NaN of those that a bound holds; all infinite where the other unknowns are not
-/// told
+///                 told
 /// @source [Seber2003], sec. 2.1
 Mat fit_covariance(const FitJacobian& J, FitGaps gaps, const std::vector<bool>& is_held);
 

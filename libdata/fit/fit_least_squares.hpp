@@ -44,7 +44,7 @@ class FitLeastSquares {
   /// Moves a parameter that does nothing where it is, as the clearance of a contact that is out of
   /// reach, to a value at which it does something, down to a third and up to three times its own.
   /// @return  false where there is none, or the model explains the records as it is: nothing has
-  /// moved
+  ///          moved
   bool rouse();
 
   FitJacobian jacobian();
@@ -65,8 +65,7 @@ class FitLeastSquares {
   /// @return  false where a motion does not get through
   bool residuals(Vec& r, std::vector<Triplet>* entries);
   /// @return  half the sum of squares there; infinite outside of bounds, and where motions do not
-  /// get
-  ///          through
+  ///          get through
   double cost_at(const Vec& place);
   /// From two steps b and c with c = q b nearly: c q / (1 - q) further on, or less where that is
   /// worse.

@@ -186,8 +186,7 @@ struct MeasuredFit : Fit {
             .along("parameters parameters"),
         column("residual", &F::residual, "",
                "root mean square of what is left, over the noise of the probes, or if nobody knows "
-               "that "
-               "over their noise floors"),
+               "that over their noise floors"),
         column("explained", &F::explained, "",
                "share of the variance of the readings that the motions found have"),
         column("log_likelihood", &F::log_likelihood, "", "of the records, Gaussian noise"),

@@ -75,8 +75,7 @@ class ShootingWindow {
 /// Windows of a record of about a duration each [s], at least one, of a steady motion at least two.
 /// @param system  that is compared, for its speed and loads
 /// @throws ModelError  for a steady motion whose readings are not within its period and in both
-/// halves of
-///                     it, or whose loads repeat later
+///                     halves of it, or whose loads repeat later
 std::vector<ShootingWindow> shooting_windows(const FitSource& source, double duration,
                                              const ContactSystem& system);
 

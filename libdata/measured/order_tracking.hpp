@@ -74,8 +74,7 @@ struct OrderTracking {
 ///
 /// @pre    readings.clock
 /// @throws OptionError  for a record of fewer revolutions than a point has, and for samples too few
-/// to
-///                      show the orders
+///                      to show the orders
 OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& options);
 
 }  // namespace whirl::inline data

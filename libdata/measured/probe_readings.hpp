@@ -61,8 +61,7 @@ struct ProbeReadings {
 /// are noted. Gaps are filled, and clipped, constant and equal channels are noted.
 ///
 /// @throws OptionError  for a channel that the record does not have or that is in no unit of its
-/// gain,
-///                      and as without_gaps and TurnClock
+///                      gain, and as without_gaps and TurnClock
 ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup);
 
 }  // namespace whirl::inline data

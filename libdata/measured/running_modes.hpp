@@ -135,7 +135,7 @@ struct RunningModes {
 /// @param samples  times x channels, at equal distances
 /// @param spacing  time between samples [s]
 /// @throws ModelError   for samples that are not numbers, channels that do not vary, too few
-/// samples
+///                      samples
 /// @throws OptionError  for options that mean nothing, or more orders than the data can have
 /// @source jackknife over stretches [Kuensch1989]
 RunningModes running_modes(const Mat& samples, double spacing, const RunningModesOptions& options);

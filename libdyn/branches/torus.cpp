@@ -27,7 +27,7 @@ constexpr Eigen::Index scanned_sections =
     1024;                               ///< sections in which a line is looked for at first
 constexpr double sharpest_line = 1e-9;  ///< share of a line's width, to which it is found
 constexpr double moves = 1e-9;          ///< scales that a motion moves at least
-constexpr double matrices = 3.0;        ///< of all unknowns: one, its factors, the next one
+constexpr double matrices = 3.0;        ///< of Newton's method at once: one, its factors, the next
 
 /// Shift of a trigonometric polynomial by its values at N even angles: the value at theta + angle
 /// is the sum of D(theta_i - theta_j + angle) x_j with Dirichlet's kernel D; and its derivative.

@@ -109,8 +109,8 @@ void FreeFlight::prepare() {
   periodic_ = *motion;
   const auto eta = layout.eta(periodic_);
 
-  Mat Q = Mat::Zero(layout.size(),
-                    layout.size());  // weights what contacts see, and everything a little
+  // weights what contacts see, and everything a little
+  Mat Q = Mat::Zero(layout.size(), layout.size());
   Q.diagonal() = 1e-4 * system_.state_scale().cwiseAbs2().cwiseInverse();
   for (const ReducedContact& c : system_.contacts()) {
     if (c.place > 0) continue;

@@ -84,9 +84,8 @@ LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)
   if (!is_small(levels - 1)) {
     throw NumericalError(fmt::format(
         "the linear motion of the rotor has rates of {:.3g} 1/s, and {:.3g} s are to be computed "
-        "at "
-        "once: more than 2^{} times as long; is the speed too low, or a stiffness or damping too "
-        "high?",
+        "at once: more than 2^{} times as long; is the speed too low, or a stiffness or damping "
+        "too high?",
         norm_, longest, levels));
   }
   layout_.rate(F_) << system.constant_load(), system.cosine_load(), system.sine_load();

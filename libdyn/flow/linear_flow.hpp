@@ -33,8 +33,7 @@ class LinearFlow {
   /// @param longest  size at level 0 [s]
   /// @param terms    of the polynomials f
   /// @throws NumericalError  where the fastest motion of the system is too fast beside `longest`:
-  /// no
-  ///                         level is as short as its Taylor series asks for
+  ///                         no level is as short as its Taylor series asks for
   LinearFlow(const ContactSystem& system, double longest, int terms);
 
   /// Matrices of one step size.

@@ -23,8 +23,7 @@ namespace whirl::inline dyn {
 /// of 1.05 times the maximum.
 ///
 /// @param maximum  that is gone by instead of the model's [rad/s]; the minimum is no more then, and
-/// a trip
-///                 speed below it does not count; 0: that of the model
+///                 a trip speed below it does not count; 0: that of the model
 /// @return         maximum 0 if there is no speed
 OperatingRange operating_range(const Model& model, double maximum = 0.0);
 

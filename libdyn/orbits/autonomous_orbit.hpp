@@ -69,8 +69,7 @@ MotionState rotating_start(const Scene& scene, const Vec& z, double revolutions)
 /// by the phase. Time does not occur there if nothing but the unbalance tells directions apart.
 ///
 /// @throws NumericalError  for gravity, anisotropic bearings, contacts off the axis, or a basis
-/// that
-///                         is not closed under rotation
+///                         that is not closed under rotation
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance = flow_tolerance);
 
 /// The same of a scene at another value of a parameter, for the states of a first scene: see

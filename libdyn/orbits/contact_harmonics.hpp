@@ -16,7 +16,7 @@ HarmonicProblem harmonic_problem(const ContactSystem& system);
 
 /// Its derivative by a parameter, as HarmonicEquations::slope takes it.
 /// @param slopes  of systems in the same coordinates; of contacts and films the system may have
-/// others
+///                others
 HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& slopes);
 
 /// Fourier coefficients of the motion of all coordinates over the next revolutions, as if it

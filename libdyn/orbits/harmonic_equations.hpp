@@ -51,7 +51,7 @@ class HarmonicEquations {
  public:
   /// @param problem  must live as long as the equations
   /// @throws NumericalError  at an undamped resonance with a harmonic, or where a load is none of
-  /// them
+  ///                         them
   HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics);
 
   Eigen::Index ports() const { return U_.rows(); }
@@ -81,8 +81,7 @@ class HarmonicEquations {
   ///
   /// @param g   forces on them, as evaluated
   /// @param by  the problem with its derivative by p in place of each number, of its forces those
-  /// at
-  ///            displacements that are held
+  ///            at displacements that are held
   /// @return    nothing where a force has none
   std::optional<Mat> slope(const Mat& u, const Mat& g, const HarmonicProblem& by) const;
 

@@ -39,8 +39,7 @@ struct HillStability {
 /// it and that is cheap.
 ///
 /// @source [Hill1886]; [VonGrollEwins2001] for harmonic balance; [LazarusThomas2010] for the choice
-/// of
-///         eigenvalues
+///         of eigenvalues
 HillStability hill_stability(const HarmonicProblem& problem, const HarmonicOrbit& orbit);
 
 }  // namespace whirl::inline dyn

@@ -50,8 +50,7 @@ std::array<int, 2> strongest_lines(const Scene& scene, const AutonomousFlow& flo
 /// @param scene_at  at a speed [rad/s]
 /// @param diagram   that the resonance is of
 /// @return  that of the lowest speed, the first stable one there; nothing if there is none, or if
-/// it
-///          was stopped before
+///          it was stopped before
 /// @throws NumericalError  as rotating_flow
 std::optional<Bouncing> find_bouncing(
     const std::function<std::shared_ptr<const Scene>(double speed)>& scene_at,

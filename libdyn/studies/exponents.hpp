@@ -25,8 +25,7 @@ struct ExponentEstimate {
 /// bench/exponent_coverage.cpp, docs/validation.md.
 ///
 /// @param growths  logarithms of what orthogonal tangents have grown by, a row for each, a column
-/// per
-///                 revolution, at least one of each
+///                 per revolution, at least one of each
 /// @source [Benettin1980] for the means
 ExponentEstimate estimate_exponents(const Mat& growths);
 

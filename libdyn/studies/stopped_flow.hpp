@@ -12,11 +12,10 @@
 namespace whirl::inline dyn {
 
 /// A flow that fails from when it is asked to stop.
-/// @param stops  empty: never
 inline Flow until(std::function<bool()> stops, Flow flow) {
   flow.go = [stops = std::move(stops), go = std::move(flow.go)](
                 std::span<const Vec> starts, long revolutions, WithTangent wanted) {
-    if (!stops || !stops()) return go(starts, revolutions, wanted);
+    if (!stops()) return go(starts, revolutions, wanted);
     return std::vector<FlowResult>(starts.size(), FlowResult{{}, {}, {}, "stopped"});
   };
   return flow;
@@ -26,7 +25,7 @@ inline Flow until(std::function<bool()> stops, Flow flow) {
 inline AutonomousFlow until(std::function<bool()> stops, AutonomousFlow flow) {
   flow.go = [stops = std::move(stops), go = std::move(flow.go)](const Vec& y, double time,
                                                                 WithTangent wanted) {
-    if (!stops || !stops()) return go(y, time, wanted);
+    if (!stops()) return go(y, time, wanted);
     return AutonomousFlow::Result{{}, {}, {}, "stopped"};
   };
   return flow;

@@ -47,7 +47,7 @@ struct StudyMotion {
 
 /// Makes the scene of a motion and puts it where it begins.
 /// @param revolution  of the motion that this one goes on from, for forces that do not repeat with
-/// it
+///                    it
 /// @throws ModelError  as StudyModels
 StudyMotion begin_motion(const StudyModels& models, std::span<const double> values,
                          const FullState* from = nullptr, long revolution = 0);

@@ -28,7 +28,7 @@ Mat sections_of(const Scene& scene, const MotionState& start, int period, long c
                 const std::function<bool()>& stops) {
   Trajectory motion{.system = &scene.contacts, .state = start, .revolutions = count * period};
   integrate_single(motion, {.tolerance = section_tolerance, .sections = true, .watch = [&](long) {
-                              return !stops || !stops();
+                              return !stops();
                             }});
   if (motion.outcome == Outcome::stopped_by_observer) return {};
   if (motion.outcome != Outcome::reached_end) throw NumericalError(motion.failure.text());
@@ -64,7 +64,7 @@ TorusBranch find_torus(const Scene& scene, const MotionState& start, const Torus
   }
   TorusBranch torus{.circle = find_circle(flow, *guess, options.circle),
                     .motion_rotation = guess->rotation};
-  if (!torus.circle.is_good() && stops && stops()) return {};
+  if (!torus.circle.is_good() && stops()) return {};
   torus.is_complete = torus.circle.is_good() && !options.along;
   return torus;
 }

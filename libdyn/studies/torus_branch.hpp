@@ -48,10 +48,11 @@ struct TorusBranch {
 ///
 /// @param start  of the motion, without its transient, at phase 0
 /// @param stops  asked often; true: the search ends, and the circle has no points unless it was
-/// found
+///               found
 /// @throws NumericalError  if the motion fails or settles on a periodic orbit
-TorusBranch find_torus(const Scene& scene, const MotionState& start, const TorusOptions& options,
-                       const std::function<bool()>& stops = {});
+TorusBranch find_torus(
+    const Scene& scene, const MotionState& start, const TorusOptions& options,
+    const std::function<bool()>& stops = [] { return false; });
 
 /// Walks along the parameter until the circle locks or breaks, or the range ends.
 ///

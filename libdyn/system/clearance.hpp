@@ -62,8 +62,7 @@ std::vector<RunningClearance> running_clearances(const Model& model, const Assem
 
 /// The same clearances where a motion takes most of each, in the order of the model.
 /// @param basis, coordinates  displacements of all points (full vectors) are basis * coordinates, a
-/// column
-///                            an instant
+///               column an instant
 std::vector<RunningClearance> largest_distances(const Model& model, const Assembler& assembler,
                                                 const Mat& basis, const Mat& coordinates);
 

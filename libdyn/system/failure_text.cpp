@@ -54,7 +54,7 @@ std::string left_bearing_text(const ReducedFilm& film) {
 bool is_boundless(const ContactSystem& system, const Vec& y) {
   const StateLayout layout = system.layout();
   const auto sizes = layout.eta(y).array() / layout.eta(system.state_scale()).array();
-  return !(sizes.abs() < boundless).all();  // the largest coefficient may leave out no number
+  return !(sizes.abs() < boundless).all();  // maxCoeff() may pass over NaN
 }
 
 void fail(Integration& result, const ContactSystem& system, const MotionState& state,

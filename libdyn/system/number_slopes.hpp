@@ -58,7 +58,7 @@ class NumberSlopes {
 };
 
 /// @throws NumericalError  where a parameter has no derivative, as motions change their kind with
-/// it
+///                         it
 void require_smooth(const ContactSystem& system, const SystemSlope& parameter);
 
 }  // namespace whirl::inline dyn

@@ -27,7 +27,7 @@ enum class ReductionEstimate { no, yes };
 /// Assembles and reduces a model at its operating speed.
 ///
 /// @throws ModelError      as Assembler, and for contacts, unbalances or forces at stations without
-/// inertia
+///                         inertia
 /// @throws NumericalError  as reduce
 Scene make_scene(const Model& model, ReductionEstimate wanted = ReductionEstimate::yes);
 

@@ -25,7 +25,7 @@ const char* name_of_target() {
 }
 
 int two_registers() {  // of engine_two_packs.cpp
-#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
+#if WHIRL_HAS_NO_LANES
   return 1;
 #else
   return 2 *

@@ -43,7 +43,6 @@ class Engine {
       : pattern_(pattern),
         options_(options),
         N(options.order > 0 ? options.order : order_for(options.tolerance)),
-        layout_(pattern.n),
         n_(pattern.n),
         lanes_(P::lanes()),
         log2_tolerance_(std::log2(options.tolerance)),
@@ -52,7 +51,7 @@ class Engine {
     terms_.assign(n * static_cast<size_t>(N + 3), P(0.0));
     load_.assign(n * static_cast<size_t>(N + 1), P(0.0));
     scale_.assign(n, P(1.0));
-    y_.assign(static_cast<size_t>(layout_.size()), P(0.0));
+    y_.assign(static_cast<size_t>(layout().size()), P(0.0));
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
     event_masks_.resize(contacts_.size());
@@ -136,6 +135,7 @@ class Engine {
   HWY_ATTR void load(int l, Trajectory& t);
   HWY_ATTR void load_system(const ContactSystem& s, const MotionState& at, int l);
   HWY_ATTR void unload(int l);
+  StateLayout layout() const { return n_; }
   HWY_ATTR Vec state_of(int l) const;
   HWY_ATTR void set_state(int l, const Vec& y);
   HWY_ATTR ContactStates contacts_of(int l) const;
@@ -241,9 +241,7 @@ class Engine {
 
   const Pattern& pattern_;
   BatchOptions options_;
-  int N;  // order of the series
-  StateLayout layout_;
-  int n_, lanes_;  // coordinates, lanes
+  int N, n_, lanes_;  // order of the series, coordinates, lanes
   double log2_tolerance_;
 
   // equations
@@ -340,8 +338,8 @@ HWY_ATTR void Engine<P>::unload(int l) {
   const LaneRecord& record = records_[static_cast<size_t>(l)];
   t.state = motion_of(l);
   if constexpr (!P::is_double) {
-    t.lower_digits.resize(layout_.size());
-    for (int i = 0; i < layout_.size(); ++i) {
+    t.lower_digits.resize(layout().size());
+    for (int i = 0; i < layout().size(); ++i) {
       t.lower_digits(i) = lane(y_[static_cast<size_t>(i)] - P(t.state.y(i)), l);
     }
   }
@@ -376,14 +374,14 @@ HWY_ATTR void Engine<P>::unload(int l) {
 /// State in a lane, rounded to double.
 template <class P>
 HWY_ATTR Vec Engine<P>::state_of(int l) const {
-  Vec y(layout_.size());
-  for (int i = 0; i < layout_.size(); ++i) y(i) = lane(y_[static_cast<size_t>(i)], l);
+  Vec y(layout().size());
+  for (int i = 0; i < layout().size(); ++i) y(i) = lane(y_[static_cast<size_t>(i)], l);
   return y;
 }
 
 template <class P>
 HWY_ATTR void Engine<P>::set_state(int l, const Vec& y) {
-  for (int i = 0; i < layout_.size(); ++i) {
+  for (int i = 0; i < layout().size(); ++i) {
     P& number = y_[static_cast<size_t>(i)];
     if constexpr (carries_slopes<P>) {
       number.x = typename P::Value(y(i));  // slopes stay

@@ -167,7 +167,7 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
       const uint64_t enters = common & ~c.touching;
       if ((enters & c.exact) != 0) {  // the slip that it begins with
         P x = c.dx[0], y = c.dy[0], u, v;
-        c.displacement(layout_.rates_at(y_.data()), u, v);
+        c.displacement(layout().rates_at(y_.data()), u, v);
         if (!c.rows.is_plane) {
           c.displacement(y_.data(), x, y);
           x = x - c.offset_x;

@@ -174,9 +174,9 @@ HWY_ATTR void Engine<P>::take_samples(const P& h) {
     slopes.length = place;
     slopes.sample = y_;
     evaluate<0>(terms_.data(), place, slopes.sample.data());
-    Vec y(layout_.size());
-    Mat by(layout_.size(), static_cast<Eigen::Index>(run.columns.size()));
-    for (int i = 0; i < layout_.size(); ++i) {
+    Vec y(layout().size());
+    Mat by(layout().size(), static_cast<Eigen::Index>(run.columns.size()));
+    for (int i = 0; i < layout().size(); ++i) {
       const P& number = slopes.sample[static_cast<size_t>(i)];
       y(i) = lane(number, 0);
       for (int c = 0; c < by.cols(); ++c) by(i, c) = lane(number.s, c);
@@ -211,13 +211,13 @@ HWY_ATTR void Engine<P>::jump_slopes(size_t i, EventKind kind, const Saltation& 
     }
   } else {
     if (c.rub) {
-      c.rub->lateral(layout_.rates_at(y_.data()), u, v);
+      c.rub->lateral(layout().rates_at(y_.data()), u, v);
     } else {
-      c.displacement(layout_.rates_at(y_.data()), u, v);
+      c.displacement(layout().rates_at(y_.data()), u, v);
     }
     function = c.rim + fnma(y, u, x * v) / r;
   }
-  for (int j = layout_.place_of_rate(0); j < layout_.size(); ++j) {
+  for (int j = layout().place_of_rate(0); j < layout().size(); ++j) {
     P& number = y_[static_cast<size_t>(j)];
     number.s = fma(typename P::Slopes(s.jump(j)), function.s, number.s);
   }
@@ -307,7 +307,7 @@ HWY_ATTR P Engine<P>::along_event(const ContactLanes<P>& c, EventKind kind, cons
   lateral(rates, a, b);
   const P turned = fnma(y, a, x * b);
   if (c.rows.is_plane) return turned;
-  lateral(layout_.rates_at(y_.data()), a, b);
+  lateral(layout().rates_at(y_.data()), a, b);
   return turned + fma(u, b, fnma(v, a, c.rim * outward / sqrt(fma(x, x, y * y))));
 }
 
@@ -324,11 +324,11 @@ HWY_ATTR void Engine<P>::note_jump(size_t i, EventKind kind) {
       slopes.before[j] = fma(slopes.before[j], slopes.length, P(k * (k - 1.0)) * x[j]);
     }
   }
-  const P rate = along_event(c, kind, layout_.rates_at(y_.data()), slopes.before.data());
+  const P rate = along_event(c, kind, layout().rates_at(y_.data()), slopes.before.data());
   const auto& columns = tangents_->columns;
   slopes.along.clear();
-  for (const P* dy = columns.data(); dy != columns.data() + columns.size(); dy += layout_.size()) {
-    slopes.along.push_back(along_event(c, kind, dy, layout_.rates_at(dy)) / rate);
+  for (const P* dy = columns.data(); dy != columns.data() + columns.size(); dy += layout().size()) {
+    slopes.along.push_back(along_event(c, kind, dy, layout().rates_at(dy)) / rate);
   }
 }
 
@@ -336,11 +336,11 @@ HWY_ATTR void Engine<P>::note_jump(size_t i, EventKind kind) {
 template <class P>
 HWY_ATTR void Engine<P>::jump_deviations() {
   auto& slopes = *slopes_;
-  if (slopes.along.empty()) return;  // as where there are no tangents
+  if (slopes.along.empty()) return;  // always where there are no tangents
   P* deviation = tangents_->columns.data();
   for (size_t d = 0; d < slopes.along.size(); ++d) {
-    P* rates = layout_.rates_at(deviation);
-    deviation = layout_.end(deviation);
+    P* rates = layout().rates_at(deviation);
+    deviation = layout().end(deviation);
     for (size_t j = 0; j < slopes.before.size(); ++j) {
       const P jump = P(2.0) * term(2)[j] - slopes.before[j];
       rates[j] = fma(jump, slopes.along[d], rates[j]);
@@ -354,9 +354,9 @@ template <class P>
 HWY_ATTR void Engine<P>::keep_deviations() {
   SlopeRun& run = *slopes_->run;
   for (Eigen::Index d = 0; d < run.deviations.cols(); ++d) {
-    Mat& by = run.deviation_slopes.emplace_back(layout_.size(), std::ssize(run.columns));
-    for (int i = 0; i < layout_.size(); ++i) {
-      const P& number = tangents_->columns[static_cast<size_t>(layout_.size() * d + i)];
+    Mat& by = run.deviation_slopes.emplace_back(layout().size(), std::ssize(run.columns));
+    for (int i = 0; i < layout().size(); ++i) {
+      const P& number = tangents_->columns[static_cast<size_t>(layout().size() * d + i)];
       run.deviations(i, d) = lane(number, 0);
       for (int c = 0; c < by.cols(); ++c) by(i, c) = lane(number.s, c);
     }

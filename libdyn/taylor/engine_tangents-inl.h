@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 
 template <class P>
 HWY_ATTR void Engine<P>::prepare_tangents() {
-  const auto size = static_cast<size_t>(layout_.size());
+  const auto size = static_cast<size_t>(layout().size());
   auto& t = *tangents_;
   t.columns.assign(size * size, P(0.0));
   t.log_sums.assign(size, P(0.0));
@@ -43,7 +43,7 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
 template <class P>
 HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
   auto& t = *tangents_;
-  const int size = layout_.size();
+  const int size = layout().size();
   Vec scale(size);
   scale << s.state_scale();
   for (int c = 0; c < size; ++c) {
@@ -336,7 +336,7 @@ HWY_ATTR void Engine<P>::orthonormalize(uint64_t due) {
   if (due == 0) return;
   auto& t = *tangents_;
   const Mask where = mask_of<P>(due);
-  const auto size = static_cast<size_t>(layout_.size());
+  const auto size = static_cast<size_t>(layout().size());
   for (size_t c = 0; c < size; ++c) {
     P* a = t.columns.data() + c * size;
     P square(0.0);
@@ -372,12 +372,12 @@ HWY_ATTR void Engine<P>::keep_growths(uint64_t ends) {
 template <class P>
 HWY_ATTR void Engine<P>::jump_tangents(int l, const Saltation& s) {
   auto& t = *tangents_;
-  const int size = layout_.size();
+  const int size = layout().size();
   for (int c = 0; c < size; ++c) {
     P* column = t.columns.data() + static_cast<size_t>(c) * static_cast<size_t>(size);
     double along = 0.0;
     for (int i = 0; i < size; ++i) along += s.gradient(i) * lane(column[i], l);
-    for (int i = layout_.place_of_rate(0); i < size; ++i)
+    for (int i = layout().place_of_rate(0); i < size; ++i)
       set_lane(column[i], l, lane(column[i], l) + s.jump(i) * along);
   }
   set_lane(t.divergence, l, lane(t.divergence, l) + s.log_determinant());
@@ -386,7 +386,7 @@ HWY_ATTR void Engine<P>::jump_tangents(int l, const Saltation& s) {
 template <class P>
 HWY_ATTR void Engine<P>::unload_tangents(int l, double time, Trajectory& to) {
   auto& t = *tangents_;
-  const int size = layout_.size();
+  const int size = layout().size();
   if (options_.tangent) {
     to.tangent.resize(size, size);
     for (int c = 0; c < size; ++c) {

@@ -23,10 +23,10 @@ namespace HWY_NAMESPACE {
 
 void run_two_packs_here(const Pattern& pattern, const BatchOptions& options,
                         std::span<Trajectory> all, const Observer* observer) {
-#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR  // no registers that lanes would fill
+#if WHIRL_HAS_NO_LANES
   run_single(pattern, options, all, observer);
 #else
-  std::make_unique<Engine<Pack<8, 2> > >(pattern, options)->run(all, observer);
+  std::make_unique<Engine<Pack<8, 2>>>(pattern, options)->run(all, observer);
 #endif
 }
 

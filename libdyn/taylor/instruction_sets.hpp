@@ -8,3 +8,7 @@
 #else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 #endif
+
+/// Of the set that is being compiled: what every processor has are no registers that lanes would
+/// fill, and motions go one after the other.
+#define WHIRL_HAS_NO_LANES (HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR)

@@ -22,8 +22,8 @@ struct SlopeOptions {
   bool by_start = true;      ///< whether derivatives by the start are wanted
   HeldSample held = HeldSample::time;
   double near = 1e-6;  ///< distance to a surface up to which a motion grazes it, see Graze
-  Mat deviations{};    ///< of the start, 2 n x any number: carried to the last sample, see
-                       ///< MotionSlopes
+  /// Of the start, 2 n x any number: carried to the last sample, see MotionSlopes.
+  Mat deviations{};
 };
 
 /// An event of a motion.

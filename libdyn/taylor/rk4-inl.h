@@ -31,9 +31,9 @@ class Rk4Lanes {
   using Mask = typename P::Mask;
 
   explicit Rk4Lanes(const Pattern& pattern)
-      : pattern_(pattern), layout_(pattern.n), n_(pattern.n), equations_(pattern) {
+      : pattern_(pattern), n_(pattern.n), equations_(pattern) {
     for (std::vector<P>* v : {&y_, &stage_, &k_, &sum_, &start_}) {
-      v->assign(static_cast<size_t>(layout_.size()), P(0.0));
+      v->assign(static_cast<size_t>(layout().size()), P(0.0));
     }
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
@@ -75,7 +75,7 @@ class Rk4Lanes {
         }
         if (is_good && revolution < t.revolutions) continue;
         const std::vector<P>& y = is_good ? y_ : start_;
-        for (int i = 0; i < layout_.size(); ++i) t.state.y(i) = lane(y[static_cast<size_t>(i)], l);
+        for (int i = 0; i < layout().size(); ++i) t.state.y(i) = lane(y[static_cast<size_t>(i)], l);
         t.state.contacts = t.system->classify(t.state.instant(), t.state.y.data());
         if (!is_good) {
           const bool left = (inside & bit) == 0;
@@ -90,6 +90,7 @@ class Rk4Lanes {
   }
 
  private:
+  StateLayout layout() const { return n_; }
   HWY_ATTR void load(int l, const Trajectory& t) {
     const ContactSystem& s = *t.system;
     equations_.load(s, l);
@@ -98,7 +99,7 @@ class Rk4Lanes {
     }
     for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
     for (const auto& disk : disks_) disk->load(s.contacts()[disk->first], l, s.phase_rate());
-    for (int i = 0; i < layout_.size(); ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
+    for (int i = 0; i < layout().size(); ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
     set_lane(rate_, l, s.phase_rate());
     set_lane(period_, l, s.period());
     set_lane(time_, l, t.state.phase / s.phase_rate());
@@ -120,7 +121,7 @@ class Rk4Lanes {
 
   /// Moves active lanes to the end of their revolution.
   HWY_ATTR void turn(const Mask& active, long steps) {
-    const auto size = static_cast<size_t>(layout_.size());
+    const auto size = static_cast<size_t>(layout().size());
     const P h = select(active, (period_ - time_) / P(static_cast<double>(steps)), P(0.0));
     const P half = P(0.5) * h, sixth = h * P(1.0 / 6.0);
     P sine, cosine;
@@ -159,8 +160,8 @@ class Rk4Lanes {
   /// k = (eta', eta'') of a state.
   HWY_ATTR void derivative(const P* y, const P& sine, const P& cosine) {
     const EquationLanes<P>& e = equations_;
-    P* a = layout_.rates_at(k_.data());
-    const P* rate = layout_.rates_at(y);
+    P* a = layout().rates_at(k_.data());
+    const P* rate = layout().rates_at(y);
     for (int i = 0; i < n_; ++i) {
       const auto ui = static_cast<size_t>(i);
       k_[ui] = rate[i];
@@ -205,7 +206,7 @@ class Rk4Lanes {
     const P s = fma(dx, dx, dy * dy);
     const Mask beyond = less(c.clearance2, s);
     if (!any(s, beyond)) return;
-    c.displacement(layout_.rates_at(y), vx, vy);
+    c.displacement(layout().rates_at(y), vx, vy);
     if (c.disk) {
       const P spin = c.disk->turns * c.disk->rate;
       vx = fnma(spin, tip_y, vx);
@@ -226,7 +227,7 @@ class Rk4Lanes {
     const P &nx = c.dx[0], &ny = c.dy[0], depth = fma(nx, x, ny * yy) - c.plane_at, nothing(0.0);
     const Mask beyond = less(nothing, depth);
     if (!any(depth, beyond)) return;
-    c.displacement(layout_.rates_at(y), vx, vy);
+    c.displacement(layout().rates_at(y), vx, vy);
     const P rate = fma(nx, vx, ny * vy);
     const P N = with_alternative(c.law, [&](const auto& law) HWY_ATTR {
       return law.normal(select(beyond, depth, nothing), rate);
@@ -242,7 +243,7 @@ class Rk4Lanes {
       c.push(a, q * dx, q * dy);
       return;
     }
-    if (c.rub) c.rub->lateral(layout_.rates_at(y), vx, vy);
+    if (c.rub) c.rub->lateral(layout().rates_at(y), vx, vy);
     const P slip = fma(fma(dx, vy, -(dy * vx)), inverse_r, c.rim);
     P share = select(both(mask_of<P>(c.exact), less(slip, P(0.0))), P(-1.0), P(1.0));
     if (c.smooth != 0) share = select(mask_of<P>(c.smooth), tanh(slip * c.inverse_width), share);
@@ -268,7 +269,6 @@ class Rk4Lanes {
   };
 
   const Pattern& pattern_;
-  StateLayout layout_;
   int n_;
   EquationLanes<P> equations_;
   std::vector<Swing> swings_;

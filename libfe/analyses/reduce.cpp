@@ -148,8 +148,7 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   if ((system.M.diagonal().array() <= 0.0).any()) {
     throw NumericalError(
         "a freedom without inertia has a damper of its own, so that the motion cannot be "
-        "integrated "
-        "as it stands: give the shaft a density or its station a mass");
+        "integrated as it stands: give the shaft a density or its station a mass");
   }
   ReductionMethod method = how.method;
   if (method == ReductionMethod::automatic) {

@@ -90,7 +90,7 @@ struct ReductionError {
 /// @param system   n x n matrices; M positive definite
 /// @param ports    rows of the points where contact forces act: their receptance is checked
 /// @param others   rows of further points with forces of their own: dampers, unbalances; a bow's
-/// load
+///                 load
 /// @param error    if not null, receives the error of the basis
 /// @throws NumericalError  if M is singular, or an eigensolver fails
 /// @source [Friswell2010], ch. 2; static shapes after [CraigChang1977]

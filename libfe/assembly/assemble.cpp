@@ -149,8 +149,7 @@ Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
   if (!solver.is_regular()) {
     throw NumericalError(
         "some degrees of freedom have neither inertia nor stiffness: give a massless part of the "
-        "shaft "
-        "a density, or a massless body a mass or a support");
+        "shaft a density, or a massless body a mass or a support");
   }
   const Mat recovered = -solver.solve(Mat(Ksk));
   for (int j = 0; j < kept; ++j) {

@@ -49,8 +49,7 @@ class Assembler {
   /// coefficients act that depend on omega: coordinates are the same at every frequency.
   ///
   /// @throws NumericalError  if a freedom has neither inertia nor stiffness, if none has inertia,
-  /// or
-  ///                         if a linearized connection has no coefficients at this speed
+  ///                         or if a linearized connection has no coefficients at this speed
   System at(double Omega, double omega) const;
   /// The same for motions whose frequency is the speed, as unbalance lets them be.
   System at(double Omega) const { return at(Omega, Omega); }

@@ -45,8 +45,7 @@ struct CouplingOptions {
 /// modes that are no faster than the rotor spins, or than 1.5 times its slowest not backward one,
 /// heavily damped ones as of oil films among them, and of every mode that grows, however fast it
 /// is; minus infinity where the rotor leaves its place without oscillating. Q_0 is the least Q
-/// beyond which an eigenvalue has a real part above zero. It is found along the imaginary axis,
-/// where
+/// beyond which an eigenvalue has a real part above zero, found along the imaginary axis, where
 ///
 ///   1 + (H_yx - H_xy) Q + det H(i w) Q^2 = 0,   H: receptance of the station at Q = 0, 2 x 2,
 ///

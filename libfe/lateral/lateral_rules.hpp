@@ -68,8 +68,7 @@ constexpr auto choices(StabilityRegion) {
 double largest_speed_ratio(double density);
 
 /// @param speed_ratio  critical speed ratio: maximum continuous speed over the first critical speed
-/// on
-///                     rigid supports
+///                     on rigid supports
 /// @source as largest_speed_ratio
 StabilityRegion stability_region(double speed_ratio, double density);
 

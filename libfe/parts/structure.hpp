@@ -213,8 +213,7 @@ struct Probe {
 
   /// What it reads of a motion.
   /// @param of  gives the motion's component 0 to 3, of x, y, theta_x and theta_y: numbers, which
-  /// may be complex, or
-  ///            arrays of them; only those that the probe sees are asked for
+  ///            may be complex, or arrays of them; only those that the probe sees are asked for
   template <class Of>
   auto reading(const Of& of) const {
     using Component = std::decay_t<decltype(of(0))>;

@@ -83,8 +83,7 @@ Figure kinds_of_points(const MapResult& study, const Planes& planes) {
   f.panels.push_back(std::move(p));
   f.notes.push_back(
       "Each period up to 8 is a kind of its own, longer ones are one; motions that failed or have "
-      "not "
-      "settled do not count.");
+      "not settled do not count.");
   return f;
 }
 

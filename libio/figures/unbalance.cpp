@@ -99,8 +99,7 @@ void add_notes(const Response& r, std::vector<Figure>& figures) {
   for (Figure& f : figures) {
     f.notes.push_back(
         "At the frequency of the speed; responses to forces of other frequencies are not drawn "
-        "here, "
-        "but as forced.");
+        "here, but as forced.");
   }
 }
 

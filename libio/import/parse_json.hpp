@@ -10,8 +10,7 @@ namespace whirl::inline io {
 /// Parses JSON; null becomes a value of Kind::other. Lines are those where values end.
 /// @param file  name for messages
 /// @throws ModelError  with the place of a syntax error, for a key that a table has twice, for a
-/// number
-///                     that no double holds, and for what is nested more than 32 deep
+///                     number that no double holds, and for what is nested more than 32 deep
 ConfigNode parse_json(const std::string& text, const std::string& file);
 
 }  // namespace whirl::inline io

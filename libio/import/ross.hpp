@@ -101,8 +101,7 @@ struct RossRotor {
 ///
 /// @param root  tree of a file, TOML or JSON
 /// @throws ModelError  with the places of all problems: no rotor of ROSS, a value that is missing
-/// or
-///                     none, tables of unequal length
+///                     or none, tables of unequal length
 RossRotor read_ross(const ConfigNode& root);
 
 }  // namespace whirl::inline io

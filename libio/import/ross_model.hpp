@@ -35,7 +35,7 @@ struct ImportedModel {
 /// @param source  name of the file that it was read from
 /// @param stem    what names of tables begin with
 /// @throws ModelError  if shaft elements leave nodes out, or a layer is not as long as what it is
-/// on
+///                     on
 ImportedModel model_of(const RossRotor& rotor, const std::string& source, const std::string& stem);
 
 }  // namespace whirl::inline io

@@ -58,7 +58,7 @@ Model model_for(const Model& model, const RecordSource& source);
 ///
 /// @param source  the file, and what holds where a record of the list says nothing
 /// @throws ModelError, FileError  with every problem found in the list, and for what is wrong with
-/// a record
+///                     a record
 std::vector<SourcedRecord> read_records(const RecordSource& source);
 
 }  // namespace whirl::inline io

@@ -32,7 +32,7 @@ struct ModelFit {
 ///
 /// @return  with notes on the records before those of the fit
 /// @throws ModelError, FileError  for what is wrong with the records, their probes or values of the
-/// model
+///                     model
 ModelFit fit_model(const Model& model, const FreeParameters& free,
                    const std::vector<SourcedRecord>& records, const FitWindow& window,
                    const MeasuredFitOptions& options);

@@ -49,10 +49,10 @@ constexpr double even_to = 0.1;
 /// even to a tenth. Where it jumps by several of them the samples between are NaN.
 ///
 /// @param rate  for files that say neither, or with more digits than theirs; nothing: nobody knows
-/// [1/s]
+///              [1/s]
 /// @throws ModelError  for a rate that is not that of the file, for times that do not ascend
-/// evenly, for
-///                     channels of different lengths, without any, or where nothing says the rate
+///                     evenly, for channels of different lengths, without any, or where nothing
+///                     says the rate
 MeasuredRecord finished(RawRecord raw, std::optional<double> rate);
 
 /// Whether a name is that of times.

@@ -50,8 +50,7 @@ ConfigNode parse_toml(std::string_view text, const std::string& file);
 /// else as a string. Tables that do not exist yet are made; elements of arrays are not.
 ///
 /// @throws ModelError  for a line without "=", an element that does not exist, a path of more than
-/// 16
-///                     parts
+///                     16 parts
 void set_value(ConfigNode& root, std::string_view assignment);
 
 /// The value at a path as set_value takes one.

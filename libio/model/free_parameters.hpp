@@ -25,8 +25,7 @@ struct FreeParameters {
 /// @param models  with the texts that they were read from
 /// @return        of each model
 /// @throws ModelError  for a path that is twice there, one that no model has, one without bounds
-/// that
-///                     has no number in its model, and for bounds that are none
+///                     that has no number in its model, and for bounds that are none
 std::vector<FreeParameters> free_parameters(const std::vector<Model>& models,
                                             const std::string& list);
 

@@ -24,8 +24,7 @@ void require_speed(const Model& model);
 /// them.
 /// @param name   for messages
 /// @param files  which ones the model may name; left out: none, which is right for all that a
-/// stranger
-///               may have written
+///               stranger may have written
 Model parse_model(const std::string& text, const std::string& name = "model",
                   const std::vector<std::string>& sets = {}, const NamedFiles& files = {});
 

@@ -10,8 +10,8 @@ namespace whirl::inline io {
 
 namespace {
 
-/// What a branch of a tree and a curve have in common. Its period stands before it; its end,
-/// contacts of grazings and readings of probes are columns of the result.
+/// Of a branch of a tree and of a curve alike. The period stands before; ends, contacts of grazings
+/// and readings of probes are columns of the result.
 void pack_branch(auto& in, auto& branch, auto& measures, auto& starts) {
   auto& [period, points, bifurcations, end] = branch;
   in.size(points);

@@ -15,8 +15,7 @@ namespace whirl::inline io {
 class OpenedFile {
  public:
   /// @throws FileError  if there is none, if it may not be read, or if it is something else, such
-  /// as a
-  ///                    directory, a device or a pipe
+  ///                    as a directory, a device or a pipe
   explicit OpenedFile(const std::filesystem::path& file);
   ~OpenedFile();
   OpenedFile(const OpenedFile&) = delete;

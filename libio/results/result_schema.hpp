@@ -50,7 +50,7 @@ const std::vector<ResultSet>& result_schema();
 /// Checks all of a result that the schema knows: nothing that reads it afterwards meets another
 /// kind, other sizes, or codes of no meaning.
 /// @throws FileError  that names the dataset and what is wrong with it; for files that hold no
-/// model
+///                    model
 void check_result(const ResultReader& file);
 
 /// Opens a result and checks it.

@@ -84,8 +84,7 @@ struct NumberMarks {
 /// "1.2D+6" becomes "1.2E+6". A unit behind the number stays.
 ///
 /// @return  or what is wrong: "410,000" is a decimal comma only where other numbers of the table
-/// have
-///          commas that can be nothing else, and "410.000" is a doubtful point there
+///          have commas that can be nothing else, and "410.000" is a doubtful point there
 Parsed<std::string> plain_number(std::string_view cell, const NumberMarks& marks);
 
 /// Whether a text begins as numbers do.

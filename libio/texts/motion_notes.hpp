@@ -37,7 +37,7 @@ std::vector<std::string> motion_notes(const Model& model, const ResonanceStudy& 
 /// law.
 /// @param model_of  the model of a motion
 /// @param place_of  where a motion is among them, such as "operation.speed = 32 rad/s"; may be
-/// empty
+///                  empty
 std::vector<std::string> touch_notes(const HardestTouches& hardest,
                                      const std::function<Model(std::size_t)>& model_of,
                                      const std::function<std::string(std::size_t)>& place_of);

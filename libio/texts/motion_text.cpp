@@ -63,8 +63,7 @@ std::string reduction_text(const Scene& scene, const Model& model) {
   const ReductionError& e = scene.error;
   std::string text = fmt::format(
       "  {} of {} degrees of freedom; up to {:.0f} rpm eigenvalues are {:.2g} % off, contact "
-      "receptances "
-      "{:.2g} %\n",
+      "receptances {:.2g} %\n",
       scene.reduced.size(), scene.system.size(), e.band / rpm, 100.0 * e.eigenvalue(),
       100.0 * e.receptance);
   if (e.within_tolerance) return text;

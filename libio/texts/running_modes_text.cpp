@@ -55,8 +55,7 @@ std::string comparison(const std::vector<RunningMode>& modes) {
   if (std::any_of(modes.begin(), modes.end(), [](const Mode& m) { return m.model_mode < 0; })) {
     table += fmt::format(
         "\n  none: of the {} modes of the model that are compared none looks like it at the "
-        "probes; "
-        "--modes N compares more\n",
+        "probes; --modes N compares more\n",
         modes.front().mac.size());
   }
   return table;
@@ -78,8 +77,7 @@ std::string text_of(const RunningModes& found) {
   if (found.modes.empty()) {
     return text +
            "  none: no pole is stable over enough model orders. A longer record, more block rows "
-           "or "
-           "wider limits may show some.\n";
+           "or wider limits may show some.\n";
   }
   using Mode = RunningMode;
   text +=

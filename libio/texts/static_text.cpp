@@ -44,8 +44,7 @@ std::string films_text(const std::vector<RunningFilm>& films, double speed) {
                           part("cxy", "N.s/m", C, 0, 1), part("cyx", "N.s/m", C, 1, 0),
                           part("cyy", "N.s/m", C, 1, 1)}) +
          "\n  The attitude is the angle from the load to the journal, about +z; force = -K u - C "
-         "u' "
-         "about there.\n";
+         "u' about there.\n";
 }
 
 }  // namespace

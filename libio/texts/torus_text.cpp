@@ -17,8 +17,7 @@ constexpr std::size_t most_rows = 25;  ///< of the table of circles, and the las
 std::string circle_text(const TorusResult& t) {
   return fmt::format(
       "  {} circle of {} harmonics, residual {:.1e} length scales, highest harmonics {:.0e} of "
-      "the "
-      "largest\n  it turns by {:.9f} in a revolution: lines {:.4f} rpm and multiples beside "
+      "the largest\n  it turns by {:.9f} in a revolution: lines {:.4f} rpm and multiples beside "
       "those of the speed\n  largest exponent across it {:+.6f} per revolution, along it "
       "{:+.0e}\n",
       t.stability == 1 ? "stable" : "unstable", t.harmonics, t.residual, t.tail, t.rotation,

@@ -33,8 +33,7 @@ Report run_campbell(const Invocation& call, const CampbellVerbOptions& options) 
   if (std::ssize(diagram.branches) > *options.modes) {
     report.text += fmt::format(
         "\n  Bearings change with speed: each mode that is among the {} lowest at any speed is one "
-        "of "
-        "these {}.\n",
+        "of these {}.\n",
         *options.modes, diagram.branches.size());
   }
   report.add_notes(unstable_notes(diagram));

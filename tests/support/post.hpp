@@ -59,7 +59,7 @@ class Post {
 
 /// Does what several ranks share, each in a thread of its own; what the leader makes of it.
 /// @param work  called with the ranks as each of them sees them; of the leader once all others
-/// serve
+///              serve
 template <class Work>
 auto in_ranks(int count, const Work& work) {
   Post post(count);
