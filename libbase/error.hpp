@@ -40,21 +40,21 @@ class ModelError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// An option of an analysis means nothing; says which one and what would be right.
+/// An option of an analysis means nothing; the message says which option and what would be right.
 class OptionError : public ModelError {
  public:
   explicit OptionError(std::string message) : OptionError("", std::move(message)) {}
-  /// @param option  its name, in words with hyphens; the key of the problem
+  /// @param option  name of the option, in words with hyphens; the key of the problem
   OptionError(std::string option, std::string message)
       : ModelError({}, option, std::move(message)), option_(std::move(option)) {}
 
-  const std::string& option() const { return option_; }  ///< empty: the message says which one
+  const std::string& option() const { return option_; }  ///< empty: the message names the option
 
  private:
   std::string option_;
 };
 
-/// The model is well-formed, but a computation on it failed; says what was tried.
+/// The model is well-formed, but a computation on it failed; the message says what was tried.
 class NumericalError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

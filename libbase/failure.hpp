@@ -8,21 +8,21 @@
 
 namespace whirl::inline base {
 
-/// Why something failed, in one sentence for people; nothing where it did not.
+/// Why something failed, in one sentence for people; empty if nothing failed.
 ///
-/// A result whose parts are worth keeping says by such a member that it failed. Wrong input throws
-/// (ModelError), and so does failed mathematics that leaves nothing to return (NumericalError).
-/// What programs decide by is an enumeration beside it (Outcome, BranchEnd); no sentence is ever
-/// compared.
+/// A result that failed, but has parts worth keeping, says so by a member of this type. Wrong input
+/// throws (ModelError), and so does failed mathematics that leaves nothing to return
+/// (NumericalError). Programs decide by an enumeration beside the Failure (Outcome, BranchEnd); no
+/// sentence is ever compared.
 class Failure {
  public:
   Failure() = default;
   Failure(std::string why) : why_(std::move(why)) {}
   Failure(const char* why) : why_(why) {}
 
-  /// Whether it failed.
+  /// Whether something failed.
   explicit operator bool() const { return !why_.empty(); }
-  /// Why; empty where it did not.
+  /// The sentence; empty if nothing failed.
   const std::string& text() const { return why_; }
   operator std::string_view() const { return why_; }
 

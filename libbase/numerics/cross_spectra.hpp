@@ -10,8 +10,8 @@ namespace whirl::inline base {
 /// One-sided spectral densities G(f) of channels x(t), E[x_a x_b] = integral of Re G_ab over f.
 struct CrossSpectra {
   double bin = 0.0;          ///< distance of neighboring lines [rad/s]
-  int segments = 0;          ///< averaged over
-  std::vector<CMat> matrix;  ///< channels x channels, Hermitian, of line k at k * bin [1/Hz, units]
+  int segments = 0;          ///< that were averaged
+  std::vector<CMat> matrix;  ///< of line k at k * bin: channels x channels, Hermitian [1/Hz, units]
 
   Eigen::Index size() const { return std::ssize(matrix); }
 };
@@ -20,8 +20,8 @@ struct CrossSpectra {
 ///
 ///   G_ab(f_k) = 2 / (1.5 df) mean of X_a(k) conj(X_b(k)),  X under a window of mean 1
 ///
-/// 1.5 lines are the equivalent noise bandwidth of the window. Means of the channels are removed
-/// before.
+/// 1.5 lines are the equivalent noise bandwidth of the window. The mean of each channel is removed
+/// first.
 ///
 /// @param samples  times x channels
 /// @param spacing  time between samples [s]

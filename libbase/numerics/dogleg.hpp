@@ -19,8 +19,8 @@ struct LeastSquares {
 
 struct DoglegOptions {
   int most_iterations = 100;
-  double cost_tolerance = 1e-6;  ///< relative change of the cost in a step that is the last
-  double step_tolerance = 1e-9;  ///< length of a step, over that of x, that is the last
+  double cost_tolerance = 1e-6;  ///< relative change of the cost below which a step is the last
+  double step_tolerance = 1e-9;  ///< length of a step over that of x, below which the search ends
   /// Steps in a row that may increase the cost: narrow bent valleys are crossed instead of
   /// followed.
   int most_uphill_steps = 5;
@@ -41,8 +41,9 @@ struct DoglegResult {
   DoglegEnd end = DoglegEnd::undefined;
 };
 
-/// Searches from x on. Each step is the Gauss-Newton step if that is within the trust region; else
-/// it goes from the steepest descent's minimum towards that step, as far as the region reaches.
+/// Searches from x on. Each step is the Gauss-Newton step if that step is within the trust region;
+/// else a step that goes from the minimum along the steepest descent towards the Gauss-Newton step,
+/// as far as the region reaches.
 ///
 ///   (J^T J + nu D^2) s = -J^T r,   |D s| <= radius,   D = column norms of J
 ///
@@ -51,7 +52,7 @@ struct DoglegResult {
 /// cost falls as predicted either from the last place or from an earlier one.
 ///
 /// @param x  start, within bounds
-/// @throws Interrupted  where somebody asks for it (libbase/system/interruption.hpp)
+/// @throws Interrupted  where somebody asks to interrupt (libbase/system/interruption.hpp)
 /// @source [Powell1970] the step; [ConnGouldToint2000] sec. 10.1 non-monotone acceptance
 DoglegResult dogleg(const LeastSquares& problem, Vec x, const DoglegOptions& options = {});
 

@@ -7,7 +7,7 @@
 
 namespace whirl::inline base {
 
-/// The largest first, pairs together.
+/// Sorts multipliers, the largest first, conjugate pairs together.
 void sort_by_size(CVec& multipliers);
 
 /// Eigenvalues of the product A_m ... A_1, the largest first.
@@ -20,8 +20,8 @@ void sort_by_size(CVec& multipliers);
 /// @source [Kressner2005], 4.1
 CVec multipliers_of(std::span<const Mat> tangents);
 
-/// Of a motion in whose equations time does not occur: the same of one segment, without the
-/// multiplier nearest to 1, which is that along the motion.
+/// Multipliers of a motion whose equations do not depend on time, from the tangent of one segment;
+/// left out is the multiplier nearest to 1, which belongs to the direction along the motion.
 CVec multipliers_across(const Mat& tangent);
 
 }  // namespace whirl::inline base

@@ -4,8 +4,9 @@
 
 namespace whirl::inline base {
 
-/// Dimension of the set that points lie on: 0 for a few points that repeat, 1 for a closed curve as
-/// the sections of a motion with two frequencies make it, more for a torus of three or for chaos.
+/// Dimension of the set that points lie on: 0 for a few points that repeat, 1 for a closed curve,
+/// as the sections of a motion with two frequencies make it, more for a torus of three frequencies
+/// or for chaos.
 ///
 /// The number of neighbors within a distance grows as its power D:  D = ln(k_2 / k_1) over the mean
 /// of ln(T_2 / T_1), with the distances T of the k_1 = 8th and k_2 = 32nd nearest neighbors of each

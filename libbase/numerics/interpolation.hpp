@@ -1,5 +1,5 @@
 #pragma once
-/// Functions that are known at some places, between these.
+/// Values of functions between the places at which they are known.
 
 #include <algorithm>
 #include <array>
@@ -21,8 +21,8 @@ constexpr auto choices(Interpolation) {
                     Choice<Interpolation>{"pchip", Interpolation::pchip}};
 }
 
-/// Places that a value depends on: `count` of them from `first` on; the value is between `below`
-/// and the next one, or that of `below` itself beyond the ends.
+/// Places that an interpolated value depends on: `count` places from `first` on. The value lies
+/// between place `below` and the next one; beyond the ends it is the value at `below`.
 struct Neighborhood {
   std::size_t first = 0, count = 1;
   std::size_t below = 0;
@@ -45,8 +45,8 @@ inline Neighborhood neighborhood(std::span<const double> places, double x, Inter
 ///
 ///   1/d = (w1/m1 + w2/m2) / (w1 + w2),   w1 = 2 h2 + h1,   w2 = h2 + 2 h1
 ///
-/// between intervals of widths h1, h2 with slopes m1, m2 of one sign, else zero; at an end that of
-/// the parabola through three places, limited so that the function stays monotone.
+/// between intervals of widths h1, h2 with slopes m1, m2 of one sign, else zero; at an end the
+/// slope of the parabola through three places, limited so that the function stays monotone.
 ///
 /// @param x  ascending, two places at least
 /// @param y  values there
@@ -70,7 +70,7 @@ inline double pchip_slope(std::span<const double> x, std::span<const double> y, 
   return d;
 }
 
-/// Value at x of a function that is known at ascending places; constant beyond their ends.
+/// Value at the place `at` of a function that is known at ascending places; constant beyond them.
 /// @param x  places, one at least
 /// @param y  values there
 inline double interpolated(std::span<const double> x, std::span<const double> y, double at,

@@ -18,8 +18,9 @@ Mat restriction(double from, double to, const GaussRule& rule);
 /// Entry (k, j) is the coefficient of s^k in P_j(2 s - 1).
 Mat legendre_to_powers(int terms);
 
-/// Maps values at the given nodes on [0, 1] to Legendre coefficients. Powers follow from these: in
-/// one product, rounding of values would be magnified.
+/// Maps values at the given nodes on [0, 1] to Legendre coefficients. Coefficients of powers follow
+/// from those coefficients by legendre_to_powers; the product of both matrices would magnify the
+/// rounding of values.
 Mat values_to_legendre(const Vec& nodes);
 
 /// Chebyshev points on [0, 1], both ends included.

@@ -23,8 +23,8 @@ inline std::optional<Vec> newton_step(const Mat& J, const Vec& r) {
   return Vec(lu.solve(r));
 }
 
-/// Whether a residual is small, or small enough and no longer falling, as rounding and events leave
-/// it.
+/// Whether a residual is small, or nearly so and no longer falling, as rounding and events may keep
+/// it from falling.
 inline bool has_converged(double residual, double before, double accurate = 1e-11) {
   constexpr double reachable = 1e-8;
   return residual < accurate || (residual < reachable && residual > 0.5 * before);
@@ -33,16 +33,17 @@ inline bool has_converged(double residual, double before, double accurate = 1e-1
 struct NewtonOptions {
   int most_steps = 12;
   double accurate = 1e-11;  ///< residual that is small
-  /// Residual over the one before, and residual, beyond which the search ends.
+  /// The search ends at a residual above largest_growth times the residual before, or above
+  /// largest.
   double largest_growth = std::numeric_limits<double>::infinity();
   double largest = std::numeric_limits<double>::infinity();
   int most_halvings = 0;  ///< of a step that makes the residual too large
-  double worse = 2.0;     ///< residual over the one before that is
+  double worse = 2.0;     ///< residual over the residual before that is too large
 };
 
 enum class NewtonEnd {
   converged,
-  undefined,  ///< where the last step leads there are no equations
+  undefined,  ///< the equations are not defined where the last step leads
   most_steps,
   diverged,
   singular  ///< there is no step
@@ -55,7 +56,7 @@ struct NewtonSearch {
 
   bool has_converged() const { return end == NewtonEnd::converged; }
   int steps() const { return static_cast<int>(residuals.size()) - 1; }
-  /// Why nothing was found, of equations that are defined.
+  /// Why no solution was found; for any end but `converged` and `undefined`.
   Failure failure(std::string_view nothing, std::string_view singular) const {
     if (end == NewtonEnd::singular) return fmt::format("{}: {}", nothing, singular);
     const double last = residuals.empty() ? 0.0 : residuals.back();
@@ -66,12 +67,12 @@ struct NewtonSearch {
 
 /// Solves equations r(x) = 0 by steps dx with J(x) dx = r(x), x -> x - dx.
 ///
-/// A step that makes the residual too large is halved until it does not; where every share of it
-/// does, the best one is taken. Far from a solution this keeps the search from running away, near
-/// one whole steps converge quadratically.
+/// A step that makes the residual too large is halved until the residual is not too large; if no
+/// halving helps, the best of these steps is taken. Far from a solution, halving keeps the search
+/// from running away; near a solution, whole steps converge quadratically.
 ///
-/// @param at     where it begins and ends: any x with `double residual`, the norm of r there,
-///               infinite or NaN where r is not defined
+/// @param at     where the search begins and ends: any x with `double residual`, the norm of r
+///               there, infinite or NaN where r is not defined
 /// @param step   x -> J^-1 r there, as an std::optional<Vec>
 /// @param moved  (x, dx) -> x - dx with its residual
 /// @source [StoerBulirsch2002], 5.3 and 5.4

@@ -44,9 +44,9 @@ struct Polynomial {
 inline std::optional<double> first_downward_zero(Polynomial g, bool on_surface) {
   constexpr double zero = 1e-15;      // of g, which is made dimensionless by its owner
   constexpr double rounding = 1e-12;  // of coefficients that were interpolated
-  constexpr double no_slope = 1e-10;  // of all coefficients: as good as none, as where sticking
-                                      // ends and the slip begins with zero rate
-  constexpr int most_steps = 20'000;  // few, but at triple roots and where M is far above |g''|
+  constexpr double no_slope = 1e-10;  // of all coefficients: a slope below that is none, as where
+                                      // sticking ends and the slip begins with zero rate
+  constexpr int most_steps = 20'000;  // few, except at triple roots and where M is far above |g''|
   if (on_surface) g.c[0] = 0.0;
   if (g.c[0] < 0.0) return 0.0;
 

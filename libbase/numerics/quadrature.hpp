@@ -12,7 +12,7 @@ struct GaussRule {
 /// @source [AbramowitzStegun1964], 25.4.29; points by Newton's method
 GaussRule gauss_rule(int points);
 
-/// The same, with the matrix that integrates from 0 to each point.
+/// Gauss-Legendre points and weights, with the matrix that integrates from 0 to each point.
 ///
 ///   integral_0^1 f      = w . f(x),           exact for polynomials up to degree 2 n - 1
 ///   integral_0^{x_i} f  = (S f(x))_i,         exact for polynomials up to degree n - 1
@@ -26,7 +26,7 @@ struct Quadrature {
   /// @param n  number of points, n >= 1
   static Quadrature gauss(int n);
 
-  /// Matrix from values at the points to those of the polynomial through them at other places.
+  /// Matrix from values at the points to values, at other places, of the polynomial through them.
   ///
   /// Barycentric formula; exact for polynomials up to degree n - 1.
   ///

@@ -86,7 +86,7 @@ struct Maximum {
 ///
 /// @param f          double -> double
 /// @param guess      between the bounds
-/// @param tolerance  of the place, absolute; what is below the square root of rounding is not
+/// @param tolerance  of the place, absolute; a tolerance below the square root of rounding is not
 ///                   reached
 /// @source [Brent1973], ch. 5
 template <class Function>

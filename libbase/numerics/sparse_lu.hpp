@@ -26,7 +26,7 @@ class SparseLu {
   std::unique_ptr<Factors> factors_;
 };
 
-/// The same of complex matrices, one after the other, whose entries stand at the same places.
+/// LU factors of complex matrices, one after the other, whose entries stand at the same places.
 class ComplexSparseLu {
  public:
   /// Finds the order of elimination for matrices with entries at these places.

@@ -15,7 +15,7 @@ struct Spectrum {
   Eigen::Index size() const { return lines.size(); }
   /// Line at a signed number, -N/2 <= k < N/2 (and beyond, cyclic).
   Complex at(Eigen::Index k) const { return lines((k % size() + size()) % size()); }
-  /// All lines by ascending frequency, that at -N/2 first: those of signed_frequencies().
+  /// All lines by ascending frequency, the line -N/2 first, as signed_frequencies() has them.
   CVec ascending() const;
 };
 
@@ -32,8 +32,9 @@ struct Peak {
 /// Largest number up to n with no prime factor above five.
 long smooth_length(long n);
 
-/// How many of the last samples of a motion a spectrum is made of: whole revolutions, so that
-/// harmonics of the speed are lines, a smooth_length() of them; less than one: as many samples.
+/// How many of the last samples of a motion a spectrum is made of: a smooth_length() of whole
+/// revolutions, so that harmonics of the speed are lines; if there is less than one revolution, a
+/// smooth_length() of samples.
 /// @param each  samples of a revolution
 long whole_revolutions(long samples, long each);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers that say what many numbers are like.
+/// Median and standard deviation of many numbers.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace whirl::inline base {
 
-/// The one in the middle, of an even number the mean of the two.
+/// The value in the middle; of an even number of values, the mean of the two in the middle.
 /// @param values  one or more
 double median_of(std::vector<double> values);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Processes that do one piece of work together, and the letters between them, whatever carries
-/// these.
+/// Processes that do one piece of work together, and the letters between them, whatever carries the
+/// letters.
 
 #include <atomic>
 #include <chrono>
@@ -18,12 +18,12 @@ namespace whirl::inline base {
 enum class LetterKind : int {
   share = 1,  ///< from the leader: what all must know
   ready,      ///< to the leader: so many threads wait for pieces
-  piece,      ///< to be computed
-  rows,       ///< of a piece
-  error,      ///< that a piece, or a rank, met
-  alive,      ///< and nothing else
-  stop,       ///< with what is begun
-  end         ///< of all work
+  piece,      ///< to a rank: a piece to be computed
+  rows,       ///< to the leader: the rows of a piece
+  error,      ///< to the leader: an error of a piece or a rank
+  alive,      ///< either way: the sender is alive, nothing else
+  stop,       ///< either way: all stop, with the pieces that are begun
+  end         ///< all work has ended; the ranks answer alike
 };
 
 /// A letter to a rank, or from one.
@@ -36,7 +36,8 @@ struct Letter {
 /// A process among those that work together. Rank 0 leads: it hands out pieces, and holds the
 /// result and its file; the others compute.
 ///
-/// Letters between two ranks arrive in their order. One thread of a process sends and receives.
+/// Letters from one rank to another arrive in the order in which they were sent. One thread of a
+/// process sends and receives.
 struct Ranks {
   int rank = 0;   ///< of this process
   int count = 1;  ///< of all
@@ -66,24 +67,25 @@ class LostRank : public std::runtime_error {
   LostRank(int rank, std::chrono::milliseconds silence);
 };
 
-/// How long to wait between two looks for letters: not at all while they come, then ever longer, up
-/// to some milliseconds, so that who waits needs no processor: a look takes some 30 us.
+/// How long to wait between two looks for letters: not at all while letters come, then ever longer,
+/// up to some milliseconds, so that a process that waits needs no processor. A look takes some 30
+/// us.
 class Patience {
  public:
   /// A letter was there.
   void begin_anew() { looks_ = 0; }
-  /// Until the next look; others may run meanwhile.
+  /// Time to wait until the next look; lets other threads run if that is zero.
   std::chrono::microseconds next();
 
  private:
   int looks_ = 0;  ///< without a letter
 };
 
-/// For how long a rank has said nothing, by the time in which its letters were looked for.
+/// For how long a rank has said nothing, counting at most a second between two looks for letters.
 class Silence {
  public:
   void hear() { lasts_ = {}; }
-  /// Looks again; how long it lasts.
+  /// Notes another look; returns how long the silence lasts.
   std::chrono::milliseconds look();
 
  private:
@@ -95,8 +97,8 @@ class Silence {
 /// An error as bytes: a ModelError with its problems, a NumericalError, too little memory, or
 /// another one by its text.
 std::string packed_error(const std::exception_ptr& error);
-/// Throws it again in another process.
-/// @param rank  where it was met
+/// Throws a packed error again, in another process.
+/// @param rank  where the error was met
 [[noreturn]] void throw_packed(std::string_view error, int rank);
 
 }  // namespace whirl::inline base

@@ -13,17 +13,19 @@ namespace whirl::inline base {
 
 /// Rows of any size, by their number.
 ///
-/// Bytes are appended, those of a row that is set again too. Where a folder is given, the oldest
-/// ones go into a file there once all together are more than what may be in memory; it has no name,
-/// and is gone with the last copy of the store. Where it cannot be written, rows stay in memory.
+/// Bytes are appended, also those of a row that is set again. If a folder is given, the oldest
+/// bytes go into a file there as soon as all bytes together exceed what may be in memory. The file
+/// has no name, and is gone with the last copy of the store. If the file cannot be written, rows
+/// stay in memory.
 ///
-/// Any number of threads may read while none writes; copies that share a file count as one.
+/// Any number of threads may read while none writes; copies of a store that share a file count as
+/// one store.
 class RowStore {
  public:
-  /// Bytes of rows.
+  /// Numbers of bytes.
   struct Limits {
     std::size_t block = std::size_t{1} << 20;      ///< that go to the disk together
-    std::size_t in_memory = std::size_t{1} << 27;  ///< beyond that they do
+    std::size_t in_memory = std::size_t{1} << 27;  ///< in all; what is more goes to the disk
   };
 
   explicit RowStore(std::size_t rows = 0) : RowStore(rows, Limits{}) {}
@@ -52,7 +54,7 @@ class RowStore {
     std::uint64_t begin = 0;  ///< place of its first byte among all
     std::uint64_t size = 0;
     std::string bytes{};        ///< empty once they are on the disk
-    std::uint64_t in_file = 0;  ///< where they are then
+    std::uint64_t in_file = 0;  ///< place of the bytes there
   };
 
   void make_room();
@@ -60,7 +62,7 @@ class RowStore {
   Limits limits_;
   std::vector<std::uint64_t> places_;
   std::vector<Block> blocks_{};
-  std::size_t written_ = 0;  ///< of these, the first ones, are on the disk
+  std::size_t written_ = 0;  ///< number of blocks, the first ones, that are on the disk
   std::filesystem::path folder_{};
   std::shared_ptr<File> file_{};
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Pieces of work for threads, apart from what becomes of their results.
+/// Pieces of work for threads; what becomes of the results is not decided here.
 
 #include <chrono>
 #include <condition_variable>
@@ -21,7 +21,7 @@ namespace whirl::inline base {
 template <class Result>
 class WorkQueue {
  public:
-  /// @param threads  wanted; where the system gives no more (`ulimit -u`), those that it gave do it
+  /// @param threads  wanted; if the system gives fewer threads (`ulimit -u`), those do the work
   explicit WorkQueue(int threads) {
     try {
       for (int i = 0; i < threads; ++i) {
@@ -30,7 +30,7 @@ class WorkQueue {
     } catch (const std::system_error&) {
     }
   }
-  /// What has not begun is dropped; what has is waited for.
+  /// Drops pieces that have not begun, and waits for those that have.
   ~WorkQueue() {
     for (std::jthread& t : threads_) t.request_stop();
     threads_.clear();
@@ -56,7 +56,7 @@ class WorkQueue {
   /// Whether there are pieces whose results have not been taken.
   bool has_open() const { return open_ > 0; }
 
-  /// A result, if one is there or comes within a time.
+  /// A result, if one is there or comes within `patience`.
   std::optional<Result> take(std::chrono::microseconds patience) {
     std::unique_lock lock(mutex_);
     if (!has_result_.wait_for(lock, patience, [&] { return !finished_.empty(); })) {

@@ -17,7 +17,7 @@ struct ValidValues {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool has_gaps = true;          ///< NaN stands where nothing is known
-  std::string_view counts = {};  ///< a dimension: numbers of its elements, from 1
+  std::string_view counts = {};  ///< a dimension whose elements these numbers count, from 1
 };
 
 namespace valid {
@@ -44,16 +44,16 @@ struct ColumnInfo {
   std::string_view key;      ///< dataset or attribute, below the group
   std::string_view unit;     ///< SI unit; empty if it has none
   std::string_view meaning;  ///< what it is, for a plot's axis and the manual
-  /// Dimensions by name, beyond that of the rows: "stations speeds". Those of one name have one
-  /// size throughout a file; a number is a size, a path the dataset along it; "+" behind a name: at
-  /// least one element.
+  /// Dimensions by name, beyond the dimension of the rows: "stations speeds". Dimensions of one
+  /// name have one size throughout a file. A number stands for a size, a path for the dataset along
+  /// the dimension; "+" behind a name: at least one element.
   std::string_view dimensions = "";
   ValidValues values{};
-  /// Key in JSON; left out, the key with its unit: "speed_rpm" for rad/s, "x_m". Frequencies are
-  /// rpm there wherever their key ends so.
+  /// Key in JSON; empty: the key with its unit, "speed_rpm" for rad/s, "x_m". Frequencies are in
+  /// rpm in JSON if their key there ends in "_rpm".
   std::string_view json_key = "";
   Written written = Written::everywhere;
-  bool is_axis = false;  ///< numbers or names along its one dimension, which other datasets have
+  bool is_axis = false;      ///< numbers or names along its one dimension, for other datasets
   bool is_from_one = false;  ///< a number from 0 that is written from 1
   bool is_optional = false;  ///< see Column::maybe()
 };
@@ -64,11 +64,13 @@ struct ColumnInfo {
 /// that has many numbers is a dataset. A member of a row is a dataset of all rows together.
 template <class Member>
 struct Column : ColumnInfo {
-  /// Pointer to a member, or function of the result, which is read back if it gives a part of it.
+  /// Pointer to a member, or function of the result. What a function gives is read back from files
+  /// only if it is a reference to a part of the result.
   Member member;
 
   constexpr Column along(std::string_view names) const { return with(&Column::dimensions, names); }
-  /// @param name  of its dimension; of a member of a row left out: the rows
+  /// @param name  of the column's dimension; left out for a member of a row: the dimension of the
+  ///              rows
   constexpr Column axis(std::string_view name = "") const {
     return along(name).with(&Column::is_axis, true);
   }
@@ -76,8 +78,8 @@ struct Column : ColumnInfo {
   constexpr Column as(std::string_view name) const { return with(&Column::json_key, name); }
   constexpr Column only(Written place) const { return with(&Column::written, place); }
   constexpr Column from_one() const { return with(&Column::is_from_one, true); }
-  /// Left out of files where it is empty, and files without it are whole; if it is in JSON only,
-  /// left out of that.
+  /// The column is left out of files if it is empty, and files without it are whole; a column of
+  /// JSON only is left out of JSON.
   constexpr Column maybe() const { return with(&Column::is_optional, true); }
 
  private:
@@ -117,7 +119,7 @@ struct RowsColumn : RowsInfo {
     return with(&RowsColumn::prefix, text);
   }
   constexpr RowsColumn only(Written place) const { return with(&RowsColumn::written, place); }
-  /// As of columns: an empty list has no datasets then.
+  /// As Column::maybe(): an empty list has no datasets.
   constexpr RowsColumn maybe() const { return with(&RowsColumn::is_optional, true); }
 
  private:
@@ -187,7 +189,8 @@ concept HasColumns = requires {
   T::columns();
 };
 
-/// One that is a group of a result file: `static constexpr std::string_view group`, too.
+/// A struct with columns that is a group of a result file: `static constexpr std::string_view
+/// group`, too.
 template <class T>
 concept HasGroup = HasColumns<T> && requires {
   { T::group } -> std::convertible_to<std::string_view>;

@@ -5,8 +5,8 @@
 
 namespace whirl::inline base {
 
-/// Bytes in short, for telling whether they are the same: Fowler, Noll and Vo's hash, variant 1a.
-/// @param before  that of the bytes before these
+/// A digest of bytes, to tell whether bytes are the same: Fowler, Noll and Vo's hash, variant 1a.
+/// @param before  digest of the bytes before these
 constexpr std::uint64_t digest_of(std::string_view bytes,
                                   std::uint64_t before = 14695981039346656037u) {
   for (const char byte : bytes) {

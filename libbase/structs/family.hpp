@@ -10,7 +10,7 @@
 
 namespace whirl::inline base {
 
-/// Calls f with every member of a family, as it is made, in the order of the list.
+/// Calls f with every member of a family, default-constructed, in the order of the list.
 template <class Any, class F>
 void for_each_member(F f) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -27,7 +27,7 @@ std::vector<std::string> member_names() {
   return names;
 }
 
-/// The member of a name, as it is made; the first one if there is none of this name.
+/// The member of a name, default-constructed; the first member if none has this name.
 template <class Any>
 Any member_named(std::string_view name) {
   Any found;

@@ -20,7 +20,7 @@ struct Field {
   Range range;               ///< which numbers are allowed
   std::string_view meaning;  ///< half a sentence for the manual
   bool is_required;
-  bool has_default;  ///< whether a struct as it is made has the value that holds if left out
+  bool has_default;  ///< whether a default-constructed struct has the value of a key left out
 };
 
 template <class S, class T>
@@ -35,7 +35,7 @@ constexpr Field<S, T> optional(std::string_view name, T S::*member, std::string_
   return {name, member, unit, range, meaning, false, true};
 }
 
-/// An optional key in whose place, if it is left out, something else is given or found.
+/// An optional key; if it is left out, something else is given or found in its place.
 template <class S, class T>
 constexpr Field<S, T> alternative(std::string_view name, T S::*member, std::string_view unit,
                                   Range range, std::string_view meaning) {
@@ -56,7 +56,7 @@ constexpr std::string_view name_of(Enum value) {
   return "?";
 }
 
-/// The enumerator of a name, from its list of choices; nothing: it is none of them.
+/// The enumerator of a name, from its list of choices; nothing: no choice has this name.
 template <class Enum>
 requires std::is_enum_v<Enum>
 constexpr std::optional<Enum> value_named(std::string_view name) {

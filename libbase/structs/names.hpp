@@ -5,7 +5,7 @@
 
 namespace whirl::inline base {
 
-/// A name with what it is the name of, once: "bearing left", but "bearing 1" of "bearing 1".
+/// A name with its kind, said once: "bearing left" of "left", but "bearing 1" of "bearing 1".
 inline std::string named(std::string_view kind, const std::string& name) {
   return name.starts_with(kind) ? name : std::string(kind) + " " + name;
 }

@@ -2,8 +2,8 @@
 /// Values as bytes, for another process of the same program, and back: every bit of a number
 /// survives.
 ///
-/// A struct says once for both directions which members travel, by a function beside it that names
-/// all of them, so that one that is new does not compile before it is named there:
+/// A function beside a struct says once for both directions which members travel. It names all
+/// members, so that a new member does not compile before it is named there:
 ///
 ///   template <class Bytes>
 ///   void travel(Bytes& bytes, Is<Drift> auto& drift) {
@@ -34,7 +34,7 @@ namespace whirl::inline base {
 template <class Given, class T>
 concept Is = std::same_as<std::remove_const_t<Given>, T>;
 
-/// What travels as the bytes that it has in memory.
+/// Types whose values travel as the bytes that they have in memory.
 template <class T>
 constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <class T>
@@ -50,7 +50,7 @@ class Packed {
   void operator()(const T&... values) {
     (put(values), ...);
   }
-  /// All that was written; it is handed over.
+  /// Hands over all that was written.
   std::string take() { return std::move(bytes_); }
 
  private:
@@ -98,10 +98,10 @@ class Packed {
   std::string bytes_;
 };
 
-/// Reads them again, in the same order.
+/// Reads values again, in the order in which Packed wrote them.
 class Unpacked {
  public:
-  /// @param bytes  outlive it
+  /// @param bytes  must outlive this object
   explicit Unpacked(std::string_view bytes) : left_(bytes) {}
 
   /// @throws NumericalError  if the bytes are fewer than the values ask for
@@ -129,7 +129,7 @@ class Unpacked {
   template <class T>
   void get(std::vector<T>& values) {
     const auto count = get_size<std::size_t>();
-    require(count <= left_.size());  // none takes less than a byte
+    require(count <= left_.size());  // no value takes less than a byte
     if constexpr (is_plain<T>) require(count <= left_.size() / sizeof(T));
     values.assign(count, T{});
     if constexpr (is_plain<T>) {

@@ -9,8 +9,8 @@
 
 namespace whirl::inline base {
 
-/// A number that a controller gives each of its groups, by the folder of that group; nothing: the
-/// group has none.
+/// A number that a controller gives each of its groups, read from the folder of a group; nothing:
+/// the group has no such number.
 struct CgroupNumber {
   using Of = std::function<std::optional<double>(const std::filesystem::path& group)>;
 
@@ -20,8 +20,9 @@ struct CgroupNumber {
   Of of_v1, of_v2;  ///< as version 1 and version 2 say it
 };
 
-/// The smallest number of the groups of this process and of all that these are in; nothing: no
-/// group has one. Where the group cannot be seen, as in a container, that of the container holds.
+/// The smallest number of the groups of this process and of all groups around them; nothing: no
+/// group has a number. Where the group of the process cannot be seen, as in a container, the number
+/// of the container's group holds.
 /// @param root  under which /proc/self/cgroup and /sys/fs/cgroup are looked for
 /// @source cgroups(7)
 std::optional<double> least_of_cgroups(const std::filesystem::path& root,

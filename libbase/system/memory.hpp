@@ -7,7 +7,7 @@
 
 namespace whirl::inline base {
 
-/// What limits the memory of this process [bytes]; nothing: that does not.
+/// What limits the memory of this process [bytes]; nothing: no limit of this kind.
 struct MemoryLimits {
   std::optional<double> machine{};    ///< MemAvailable and SwapFree of /proc/meminfo
   std::optional<double> cgroup{};     ///< what the limits of its cgroups leave
@@ -16,21 +16,22 @@ struct MemoryLimits {
 
 /// The limits of this process, now.
 ///
-/// Of a cgroup: memory.max of version 2, memory.limit_in_bytes of version 1, less what is in use
-/// and not only files that were read (inactive_file). What cannot be read limits nothing.
+/// A cgroup leaves memory.max of version 2, or memory.limit_in_bytes of version 1, less the memory
+/// in use that is not only files that were read (inactive_file). What cannot be read limits
+/// nothing.
 ///
 /// @param root  under which /proc and /sys/fs/cgroup are looked for
 /// @source proc(5), getrlimit(2); Linux, Documentation/admin-guide/cgroup-v2.rst,
 ///         cgroup-v1/memory.rst
 MemoryLimits memory_limits(const std::filesystem::path& root = "/");
 
-/// The smallest of them [bytes]; without any it is infinite.
+/// The smallest of the limits [bytes]; infinite without any.
 double least_of(const MemoryLimits& limits);
 
 /// Checks that there is as much memory as something is estimated to take.
-/// @param option  that asks for it, in words with hyphens: "revolutions"
+/// @param option  that asks for the memory, in words with hyphens: "revolutions"
 /// @param bytes   estimated
-/// @param what    takes it: "512 revolutions with 64 samples each"
+/// @param what    takes the memory: "512 revolutions with 64 samples each"
 /// @param advice  what would take less: "record fewer"
 /// @throws OptionError  with both numbers, if there is less
 void require_memory(const std::string& option, double bytes, const std::string& what,

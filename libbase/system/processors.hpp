@@ -16,9 +16,9 @@ struct ProcessorLimits {
 
 /// The limits of this process.
 ///
-/// The quota is the smallest of its cgroup and all that this one is in: cpu.max of version 2,
+/// The quota is the smallest of its cgroup and all cgroups around that: cpu.max of version 2,
 /// cpu.cfs_quota_us over cpu.cfs_period_us of version 1. Where its cgroup cannot be seen, as in a
-/// container, that of the container holds. What cannot be read limits nothing.
+/// container, the quota of the container holds. What cannot be read limits nothing.
 ///
 /// @param root  under which /proc/self/cgroup and /sys/fs/cgroup are looked for
 /// @source cgroups(7); Linux, Documentation/admin-guide/cgroup-v2.rst, scheduler/sched-bwc.rst
@@ -28,7 +28,7 @@ ProcessorLimits processor_limits(const std::filesystem::path& root = "/");
 /// OMP_NUM_THREADS, or where that is not set SLURM_CPUS_PER_TASK; at least one.
 int usable_processors(const ProcessorLimits& limits);
 
-/// Those of this process, as it was when this was asked first.
+/// Threads that the limits of this process leave, as they were at the first call.
 int usable_processors();
 
 }  // namespace whirl::inline base

@@ -12,10 +12,10 @@ namespace whirl::inline data {
 
 struct FitOptions {
   double window = 0.0;         ///< of multiple shooting [s]; 0: a revolution
-  int most_iterations = 300;   ///< once motions are to be one
-  bool is_noise_known = true;  ///< else its size is taken from what is left
-  /// Asked before every window of a record; true: the fit ends as it is, without the errors of what
-  /// it found. May be empty.
+  int most_iterations = 300;   ///< of the last stage, in which windows join
+  bool is_noise_known = true;  ///< else its size follows from the residuals
+  /// Asked before every window of a record; true: the fit ends as it is, without the errors of its
+  /// parameters. May be empty.
   std::function<bool()> is_stopped{};
   std::function<void(long done, long total)> progress{};
 };
@@ -25,9 +25,10 @@ struct FittedParameter {
   std::string unit;    ///< of its values
   double start = 0.0;  ///< where the search began
   double value = 0.0;
-  double standard_deviation = 0.0;  ///< infinite: the records cannot tell; NaN: its bound holds it
-  double lower = 0.0, upper = 0.0;  ///< of the interval of 95 %
-  /// Whether half the interval is narrower than the value; else the records hardly tell.
+  double standard_deviation = 0.0;  ///< infinite: records do not determine it; NaN: at a bound
+  double lower = 0.0, upper = 0.0;  ///< ends of the interval of 95 %
+  /// Whether half the interval is narrower than the value; else the records hardly determine the
+  /// value.
   bool is_told = false;
   bool is_at_bound = false;
 
@@ -47,7 +48,7 @@ struct FittedParameter {
   }
 };
 
-/// What is left of a record.
+/// What a fit leaves unexplained of a record.
 struct FitResidual {
   std::string record;
   Vec of_probe;          ///< root mean square of reading less measurement, per probe [m]
@@ -58,13 +59,14 @@ struct FitResidual {
 };
 
 struct Fit {
-  /// Whether the search has ended and, if the noise is known, what is left is no more than that.
+  /// Whether the search has ended and, if the noise is known, the residuals are no larger than
+  /// noise.
   bool has_converged = false;
-  std::string why_not;  ///< if it has not
+  std::string why_not;  ///< why the fit has not converged; else empty
   std::vector<FittedParameter> parameters;
   Mat correlation;  ///< of their errors
   /// Largest standard deviation of a parameter over the least that an estimate without bias can
-  /// have (Cramer and Rao); above 1 where gaps between windows are part of what is told.
+  /// have (Cramer and Rao); above 1 where gaps between windows are left and count as residuals.
   double over_least_deviation = 1.0;
   double residual =
       0.0;  ///< root mean square of all residuals over their noise: 1 where the model explains all
@@ -79,10 +81,10 @@ struct Fit {
 /// Finds parameters by multiple shooting: least squares over the parameters and the state at the
 /// start of each window, with exact derivatives through touches, releases and slip.
 ///
-/// What is left between windows is weighted more and more, until parameters have the errors of
-/// maximum likelihood to 1 %: at the end the motions of a record are one. Where no search gets that
-/// far, as in long records of chaos, deviations are those of the search as it is, gaps included
-/// (over_least_deviation).
+/// Gaps between windows are weighted more and more, until the errors of the parameters are those of
+/// maximum likelihood to 1 %: in the end the motions in the windows of a record are one motion.
+/// Where no search gets that far, as in long records of chaos, standard deviations are those of the
+/// search as it has ended, gaps included (over_least_deviation).
 ///
 /// @throws ModelError  for records without readings, parameters without a size or outside their
 ///                     bounds

@@ -12,7 +12,7 @@
 
 namespace whirl::inline data {
 
-/// Standard deviations that chance does not reach.
+/// How many standard deviations chance does not reach.
 inline constexpr double improbable = 6.0;
 
 /// Readings of displacement probes while the rotor turned at a constant speed.
@@ -30,19 +30,20 @@ struct FitRecord {
   bool is_offset_known = true;
 };
 
-/// A parameter that is found.
+/// A parameter that a fit finds.
 struct FreeParameter {
   std::string path;
   std::string unit{};  ///< of its values, for people
   double start = 0.0;  ///< where the search begins
-  double size = 0.0;   ///< what it is compared with, > 0
+  double size = 0.0;   ///< scale of its values, > 0
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// Whether the lower bound is that of any such value: nobody says that this one may be near it.
+  /// Whether the lower bound is that of all values of this kind, and none was given for this one:
+  /// the value may be far from it.
   bool is_lower_general = false;
 };
 
-/// A system at some values of the parameters, with its slopes by them.
+/// A system at some values of the parameters, with its slopes by the parameters.
 struct FitSystem {
   ContactSystem system;
   std::vector<SystemSlope> slopes;

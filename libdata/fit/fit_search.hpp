@@ -16,22 +16,22 @@ struct RecordShooting {
   std::vector<ShootingWindow> windows{};
   std::vector<Vec> starts{};  ///< of windows, over scale
   Vec scale{};                ///< of states
-  Vec gap{};                  ///< of the state between windows that counts as one noise
+  Vec gap{};                  ///< of the state between windows that counts as the noise does
   Vec offset{};               ///< of readings, over length, per probe; zero where it is known
   double length = 1.0;        ///< scale of displacements [m]
-  /// At the parameters that are looked at; nothing: there is none.
+  /// The system at the current parameters; nothing: they make no system.
   std::optional<FitSystem> system;
 
   bool has_offset() const { return !source->record.is_offset_known; }
 };
 
-/// What is searched for, and the systems at the parameters that are looked at.
+/// The unknowns of a fit, and the systems at the current parameters.
 struct FitSearch {
   FitSearch(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& free,
             const FitOptions& asked, int steady_windows_per_revolution);
 
   long readings() const;
-  /// Values of the parameters that are looked at.
+  /// Current values of the parameters.
   Vec values() const { return x.cwiseProduct(sizes); }
   void make_systems();
   bool has_steady() const {
@@ -44,7 +44,7 @@ struct FitSearch {
   Vec x;      ///< parameters over their sizes
   Vec sizes;  ///< of parameters
   std::vector<RecordShooting> shootings;
-  double between = 1.0;  ///< what may be left between windows, over gap
+  double between = 1.0;  ///< gap that may be left between windows, over RecordShooting::gap
 };
 
 }  // namespace whirl::inline data

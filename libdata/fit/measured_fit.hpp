@@ -26,8 +26,8 @@ struct FitSpan {
 /// Speed and phase are those of the key-phasor; without one the speed is the one given, and the
 /// phase at the first sample is zero.
 ///
-/// @param from         revolutions before, of the record
-/// @param revolutions  at most; 0: all that there are
+/// @param from         revolutions of the record before the span
+/// @param revolutions  of the span at most; 0: all that there are
 /// @param notes        receives what is odd: a speed that changes, a phase that nobody knows
 /// @throws OptionError  for fewer than two revolutions, or two samples in each
 FitSpan fit_span(const ProbeReadings& readings, double speed, double from, double revolutions,
@@ -43,20 +43,20 @@ struct FitMeasurement {
   std::function<Model(const Vec& values)> model_at;  ///< as of model_source
 };
 
-/// Standard deviation of the noise of probes. Left out, it is found: what is left of each is its
-/// noise.
+/// Standard deviation of the noise of probes. Left out, the noise of each probe is what the fit
+/// leaves of its readings.
 struct ProbeNoise {
-  double value = 0.0;  ///< [m], or of the standard deviation of what a probe reads
+  double value = 0.0;  ///< [m]; if relative, over the deviation of what a probe reads
   bool is_relative = false;
 };
 
 struct MeasuredFitOptions {
   std::optional<ProbeNoise> noise{};
-  /// Revolutions after which the motions repeat: records are averaged over these periods, and the
-  /// noise is what is left between them, see steady_record. 0: they need not repeat.
+  /// Revolutions after which the motions repeat: records are averaged over such periods, and the
+  /// noise is what differs between periods, see steady_record. 0: motions need not repeat.
   int period = 0;
   bool finds_offsets = false;  ///< of the probes, see FitRecord::is_offset_known
-  int starts = 1;              ///< the model's own values, and others drawn between the bounds
+  int starts = 1;              ///< first the model's values, then values between the bounds
   std::uint64_t seed = 1;
   int threads = 1;  ///< that take starts
   FitOptions search{};
@@ -71,7 +71,7 @@ struct FittedProbe : ProbeLabel {
   double noise = 0.0;     ///< standard deviation that it was weighted with [m]
   double residual = 0.0;  ///< root mean square of reading less measurement [m]
   double floor = 0.0;     ///< noise that the upper half of its spectrum shows, see noise_floor [m]
-  double offset = 0.0, offset_deviation = 0.0;  ///< if they are found; standard deviation [m]
+  double offset = 0.0, offset_deviation = 0.0;  ///< if found, and its standard deviation [m]
   Vec measured, predicted;                      ///< per sample [m]
 
   static constexpr auto columns() {
@@ -118,8 +118,8 @@ struct FittedStation {
 struct FittedRecord {
   std::string file;
   double speed = 0.0;        ///< of the rotor [rad/s]
-  double revolutions = 0.0;  ///< of it that were fitted to
-  int period = 0;            ///< that it was averaged to [revolutions]; 0: it was not
+  double revolutions = 0.0;  ///< of the record that were fitted to
+  int period = 0;            ///< of the average of the record [revolutions]; 0: not averaged
   Vec time;                  ///< per sample; of an average since the period began [s]
 
   static constexpr auto columns() {
@@ -142,9 +142,9 @@ struct FitCandidate {
   double residual = 0.0;
   double log_likelihood = 0.0;
   double information = 0.0;  ///< criterion of Bayes [Schwarz1978]: the smallest is the best
-  /// Share of its likelihood in that of all that converged, each punished for its parameters: where
-  /// one of them is right and none was preferred before, the probability that it is this one. 0: it
-  /// did not.
+  /// Likelihood of this model, punished for its parameters, over the sum of such likelihoods of all
+  /// models that converged: if one of those models is right and none was preferred before, the
+  /// probability that this one is right. 0: this one did not converge.
   double weight = 0.0;
 
   static constexpr auto columns() {
@@ -164,14 +164,14 @@ struct FitCandidate {
 
 /// What was found in records; group /fit.
 struct MeasuredFit : Fit {
-  bool is_noise_known = false;  ///< else it is what is left
+  bool is_noise_known = false;  ///< else it is the residuals
   double explained = 0.0;       ///< share of the readings' variance that the motions found have
   int starts = 1;               ///< of the search
-  int same_end = 1;             ///< of these, that end within a standard deviation of the best one
+  int same_end = 1;             ///< starts that end within a standard deviation of the best one
   std::vector<FittedRecord> files;
   std::vector<FittedProbe> probes;
   std::vector<FittedStation> stations;
-  std::vector<FitCandidate> candidates;  ///< this one first; empty: it is alone
+  std::vector<FitCandidate> candidates;  ///< this model first; empty: there are no others
   std::vector<std::string> notes;
 
   static constexpr std::string_view group = "/fit";
@@ -209,15 +209,15 @@ struct MeasuredFit : Fit {
 };
 
 /// Standard deviation of the noise in equally spaced samples, as far as the upper half of their
-/// spectrum shows it: the median there, as motions have lines. Motions with much in it make it
-/// larger.
+/// spectrum shows it: from the median there, which the lines of a motion do not raise. Motions with
+/// much content in that half make the floor larger.
 double noise_floor(const Vec& samples);
 
 /// Finds parameters by multiple shooting through some revolutions of records, see fit().
 ///
-/// Probes are weighted by their noise. If nobody knows it, it is their noise floor first, then what
-/// is left of each. A search that ends where less than half of the readings is explained, and more
-/// is left than noise, has not converged.
+/// Probes are weighted by their noise. If the noise is not known, it is first the noise floor of
+/// each probe, then what the fit leaves of it. A search that explains less than half of the
+/// readings, and leaves more than noise, has not converged.
 ///
 /// @throws ModelError, OptionError  as fit() and model_source()
 MeasuredFit fit(const std::vector<FitMeasurement>& measurements,

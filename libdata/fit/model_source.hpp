@@ -12,11 +12,12 @@ namespace whirl::inline data {
 
 /// A source whose systems are those of a model.
 ///
-/// All of them move in the shapes of one scene, see SystemSlope. No parameter may change the speed:
-/// that is what the record was measured at.
+/// All systems move in the shapes of one scene, see SystemSlope. No parameter may change the speed,
+/// which is the one that the record was measured at.
 ///
-/// A value at a bound is taken a millionth of its size inside, and slopes within four steps of it
-/// (SystemSlope) are those there: beyond a bound there may be no model.
+/// Beyond a bound there may be no model. A value at a bound is therefore moved inside by a
+/// millionth of the parameter's size, and the slopes at a value less than four steps (SystemSlope)
+/// from a bound are those at four steps from it.
 ///
 /// @param scene       of the model at the starts of the parameters
 /// @param rows        as of FitSource

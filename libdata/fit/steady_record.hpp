@@ -13,29 +13,30 @@ struct SteadyOptions {
 /// A period of a steady motion, and what it was averaged from.
 struct SteadyRecord {
   FitRecord period;  ///< for fits; its noise is the standard error of each reading
-  int periods = 0;   ///< whole ones in the record, as many were averaged
+  int periods = 0;   ///< whole periods in the record, all of which were averaged
   Vec scatter;       ///< of a sample about the average, root mean square per probe [m]
-  /// Between the averages over the first and over the second half, root mean square per probe [m].
+  /// Difference of the averages over the first and over the second half, root mean square per probe
+  /// [m].
   Vec drift;
 };
 
 /// Averages a record over its periods.
 ///
 /// Samples are sorted by the angle that the rotor has gone through in its period, into as many bins
-/// as a period has samples. A reading is the mean of its bin, corrected for where in the bin they
-/// were:
+/// as a period has samples. A reading is the mean of its bin, corrected for where in the bin its
+/// samples were:
 ///
 ///   reading_b = s(angle_b) + mean over the samples i of bin b of (sample_i - s(angle_i))
 ///
-/// angle_b their mean angle, s the Fourier series of an eighth as many harmonics as there are bins
-/// that has the same means. Where samples go evenly into the period it is their plain mean,
-/// whatever harmonics the motion has; else it is without bias for all harmonics of s, and of
-/// harmonic k above them to k^2 pi^2 / (6 bins^2) of its amplitude. Readings have independent
-/// errors if samples have.
+/// where angle_b is the mean angle of these samples, and s the Fourier series that has the same
+/// means and an eighth as many harmonics as there are bins. Where samples go evenly into the
+/// period, a reading is their plain mean, whatever harmonics the motion has. Else the harmonics of
+/// s give the reading no bias, and a higher harmonic k one of up to k^2 pi^2 / (6 bins^2) of its
+/// amplitude. The errors of readings are independent if those of samples are.
 ///
 /// The standard error of a probe's readings is taken from what differs between periods, so that
-/// noise that is alike within a few samples counts as it should. An unknown offset (FitRecord) may
-/// wander: it is taken off period by period.
+/// noise that is correlated over a few samples counts as it should. An unknown offset (FitRecord)
+/// may wander: the mean of each period is taken off.
 ///
 /// A motion counts as steady if samples scatter about the average by no more than 1.5 times the
 /// noise (FitRecord::noise; where that is empty or zero, from differences of successive samples),

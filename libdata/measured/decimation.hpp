@@ -4,7 +4,7 @@
 
 namespace whirl::inline data {
 
-/// Every so many samples of a record whose higher frequencies were taken out before.
+/// One of every `factor` samples of a record, after its higher frequencies have been taken out.
 ///
 /// The low-pass filter is a sinc under a Hann window, ten of the new samples to either side, and
 /// has no phase. Below 0.4 of the new sampling rate it keeps amplitudes within 1 %, from 0.6 on it

@@ -27,11 +27,11 @@ struct DecomposedMode : Pole {
   }
 };
 
-/// Spectral matrices in their singular values.
+/// Singular values of spectral matrices, and their vectors.
 struct Decomposition {
   double bin = 0.0;  ///< distance of lines [rad/s]
   Mat values;        ///< channels x lines, the largest first
-  CMat first;        ///< channels x lines: singular vectors of the largest ones
+  CMat first;        ///< channels x lines: singular vectors of the largest values
 };
 
 /// @source [Brincker2001]; the matrices are Hermitian and have no negative eigenvalues, which are
@@ -41,16 +41,16 @@ Decomposition decomposed(const CrossSpectra& spectra);
 /// Peaks of the first singular value, with frequency and damping from their neighborhood.
 ///
 /// A peak is the highest line within three lines to either side, and 3 exp(4 / sqrt(segments))
-/// times as high as the lowest line on the way to any higher one: more than lines of noise scatter
-/// by. Its bell is what the spectral matrix is along its singular vector u, G_u = u* G u, on the
-/// lines around it where that is above a thirtieth of the peak and not yet another one's. The
-/// inverse transform of the bell is the correlation of one oscillator as a rotating pointer,
+/// times as high as the lowest line on the way to any higher one: lines of noise scatter by less.
+/// The bell of a peak is the spectral matrix along the peak's singular vector u, G_u = u* G u, on
+/// the lines around the peak, to where G_u falls below a thirtieth of the peak or rises to more
+/// than twice its lowest value so far, as part of another bell. The inverse transform of the bell
+/// is the correlation of one oscillator as a rotating pointer,
 ///
-///   r(t) ~ e^(lambda t),   lambda from a straight line through ln r between 0.9 and 0.3 of its
-///   start
+///   r(t) ~ e^(lambda t),   lambda from a straight line through ln r between 0.9 r(0) and 0.3 r(0),
 ///
-/// divided before by the correlation of the window, which would count as damping. A bell of fewer
-/// than five lines tells no damping: NaN.
+/// where r is divided first by the correlation of the window, which would count as damping. A bell
+/// of fewer than five lines tells no damping: NaN.
 ///
 /// @source enhanced decomposition [Brincker2001b]; along a singular vector [ZhangWangTamura2010]
 std::vector<DecomposedMode> decomposed_modes(const CrossSpectra& spectra, const Decomposition& d);

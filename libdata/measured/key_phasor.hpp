@@ -36,20 +36,21 @@ struct KeyPhasor {
 
 /// Times at which a signal crosses the threshold, located between samples by a straight line [s].
 ///
-/// Another pulse counts only after the signal has gone back by a fifth of its range, or half the
-/// way to its end, so that noise at the threshold makes none.
+/// Another pulse counts only after the signal has gone back from the threshold by a fifth of its
+/// range, or by half the way to the end of its range if that is less, so that noise at the
+/// threshold makes no pulses.
 std::vector<double> pulse_times(const Vec& samples, const MeasuredRecord& record,
                                 const KeyPhasor& key);
 
 /// The angle that a rotor has turned by, from times of pulses.
 ///
-/// Between pulses it is the cubic whose slopes at pulses are those of parabolas through three of
-/// them: exact where the speed changes evenly.
+/// Between pulses the angle is the cubic whose slopes at pulses are those of parabolas through
+/// three pulses: exact where the speed changes evenly.
 class TurnClock {
  public:
-  /// Up to three pulses that are missing one after the other are put between their neighbors, and
-  /// one that cuts an interval in two is left out; intervals are compared with the median about
-  /// them.
+  /// Up to three pulses that are missing one after the other are put between their neighbors, and a
+  /// pulse that cuts an interval in two is left out; an interval is compared with the median of
+  /// those about it.
   ///
   /// @param notes  receives where pulses are missing or too many
   /// @throws OptionError  for fewer than three pulses
@@ -61,7 +62,7 @@ class TurnClock {
   double last() const { return pulses_.back(); }    ///< [s]
   /// Angle of the rotor from +x towards +y, which goes on growing [rad]; first() <= t <= last().
   double angle(double t) const;
-  /// Its rate [rad/s].
+  /// Rate of the angle [rad/s].
   double speed(double t) const;
   double mean_speed() const;  ///< [rad/s]
   /// Largest less smallest speed of a revolution, over the mean.

@@ -42,7 +42,7 @@ struct MeasuredIdentification {
   Identification found;
   double speed = 0.0;     ///< of the rotor in the record [rad/s]
   double duration = 0.0;  ///< of what was transformed [s]
-  /// Whether every station is seen in one direction only. Peaks have no sense then, their
+  /// Whether every station is seen in one direction only. Peaks then have no sense of whirl, their
   /// frequencies are positive, and their amplitudes are those along the directions.
   bool is_in_one_direction = false;
   std::vector<ProbeLabel> probes;
@@ -102,10 +102,10 @@ constexpr double unseen_reading = 1e-3;
 /// Peaks are those of the full spectra of all stations together, under a Hann window over the
 /// longest part at the end of the record with whole revolutions, where samples go evenly into
 /// these; else over all but a few samples. Deflection shapes are complex readings of the probes,
-/// and so are the modes. A motion of the model's that probes along x and y of every node and body
-/// read has the MAC that it has without them.
+/// and so are the modes. If probes along x and y of every node and body read a motion of the model,
+/// its MAC is the same as without probes.
 ///
-/// @param model    with its speed, which the record is taken at
+/// @param model    with its speed, at which the record was taken
 /// @param scene    of it
 /// @throws OptionError  for a record of fewer than 16 samples, or without probes
 MeasuredIdentification identify(const Model& model, const Scene& scene,

@@ -31,7 +31,7 @@ double smallest_step(const Vec& samples) {
   return std::isfinite(least) ? least : 0.0;
 }
 
-/// The mean step towards runs at a limit; 0: there are no runs.
+/// The mean step with which a signal leaves runs at a limit; 0: there are no runs.
 double step_to(const Vec& samples, double limit) {
   double steps = 0.0;
   long runs = 0, at_limit = 0;

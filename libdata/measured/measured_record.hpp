@@ -16,7 +16,7 @@ inline const std::string share_of_full_scale = "FS";
 
 struct MeasuredChannel {
   std::string name;
-  /// Of its samples: "m", "V", share_of_full_scale or any other; "": the file does not say it.
+  /// Unit of its samples: "m", "V", share_of_full_scale or any other; "": the file does not say it.
   std::string unit{};
 };
 
@@ -32,7 +32,7 @@ struct MeasuredRecord {
   double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
   /// Names of the channels, for messages: "x [m], y [m]".
   std::string channel_list() const;
-  /// The channel of a name, or of a number from 1 where none has it as its name.
+  /// The channel of a name, or if no channel has that name, the channel of that number from 1.
   std::optional<Eigen::Index> channel(const std::string& name) const;
 };
 
@@ -45,7 +45,7 @@ struct Gaps {
   std::vector<Eigen::Index> missing;  ///< one or more
   Eigen::Index samples = 0;           ///< of a channel
 
-  /// How many, and when first.
+  /// Says how many samples are missing, and when the first one.
   std::string text(const MeasuredRecord& record) const;
 };
 
@@ -55,22 +55,23 @@ Vec filled(const Vec& samples);
 /// Fills missing samples of a channel by straight lines between their neighbors.
 ///
 /// @param name  of the channel
-/// @param gaps  of the channels before; receives its own
+/// @param gaps  of the channels before; receives those of this one
 /// @throws OptionError  if more than a twentieth is missing
 Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
                  std::vector<Gaps>& gaps);
 
-/// Whether a signal was cut off: at its largest or smallest value it rests for three samples or
-/// more, and comes there by steps of more than two of the smallest that it makes. What was
-/// digitized coarsely rests at its crests, too, but comes there by the smallest steps.
+/// Whether a signal was cut off: it rests at its largest or smallest value for three samples or
+/// more, and leaves such rests by steps that are, on the average, more than twice its smallest
+/// step. A coarsely digitized signal rests at its crests, too, but leaves them by its smallest
+/// steps.
 bool is_clipped(const Vec& samples);
 
-/// Whether a signal ascends from every sample to the next, 16 or more, as times and numbers of
-/// samples do, and no probe of a vibration.
+/// Whether a signal of 16 samples or more ascends from every sample to the next, as times and
+/// numbers of samples do, but no reading of a vibration.
 bool always_ascends(const Eigen::Ref<const Vec>& samples);
 
-/// Samples that stand out alone: the steps into them and back are five times and more what 99 of
-/// 100 steps are at most, and three times the standard deviation of the signal.
+/// Samples that stand out alone: the steps into such a sample and back are at least five times the
+/// largest of the smaller 99 % of all steps, and three times the standard deviation of the signal.
 struct Spikes {
   Eigen::Index count = 0, first = 0;
 };

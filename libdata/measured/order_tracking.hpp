@@ -13,8 +13,8 @@ constexpr double fewest_order_revolutions = 2.0;  ///< that a point can be made 
 struct OrderOptions {
   std::vector<double> orders{1.0, 2.0};  ///< frequencies over speed, each above zero
   double revolutions = 8.0;              ///< that a point is made of
-  /// At whose nearest point the readings are taken off all points of a run-up: runout, which does
-  /// not change with speed [rad/s].
+  /// Speed of the slow roll: the readings at the point nearest to it are taken off all points of a
+  /// run-up, as runout does not change with speed [rad/s].
   std::optional<double> slow_roll{};
 };
 
@@ -23,7 +23,7 @@ struct OrderCurve : ProbeLabel {
   double order = 0.0;
   CVec response;  ///< per point, reading = Re(response e^(i order angle)) [m]
 
-  /// What probes of machines tell [m].
+  /// Peak to peak, as probes of machines tell it [m].
   Vec peak_to_peak() const { return 2.0 * response.cwiseAbs(); }
 
   static constexpr auto columns() {
@@ -64,9 +64,9 @@ struct OrderTracking {
 
 /// Tracks orders along a record with a key-phasor.
 ///
-/// A point is made of some revolutions, the next one half of them later. There the readings are, in
-/// the least squares weighted by a Hann window over the angle of the rotor, a constant and all
-/// orders:
+/// A point is made of some revolutions; the next point begins half as many revolutions later. In
+/// these revolutions the readings are taken as a constant and all orders, by least squares weighted
+/// by a Hann window over the angle of the rotor:
 ///
 ///   p_j = c + sum_q Re(C_q e^(i q angle_j))
 ///

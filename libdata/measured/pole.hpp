@@ -19,16 +19,15 @@ struct Pole {
   double log_decrement() const { return -turn * lambda.real() / lambda.imag(); }
 };
 
-/// Modal assurance criterion |a* b|^2 / (a* a  b* b) of shapes at the same channels, 0 to 1; 0 of
-/// nothing.
+/// Modal assurance criterion |a* b|^2 / (a* a  b* b) of shapes at the same channels, 0 to 1; 0 if a
+/// shape is zero.
 /// @source [AllemangBrown1982]
 inline double channel_mac(const CVec& a, const CVec& b) {
   const double sizes = a.squaredNorm() * b.squaredNorm();
   return sizes > 0.0 ? std::norm(a.dot(b)) / sizes : 0.0;
 }
 
-/// How unlike two poles are: relative distance of their frequencies, and what their MAC lacks of
-/// one.
+/// How unlike two poles are: relative distance of their frequencies, plus one less their MAC.
 /// @source [Magalhaes2009]
 inline double pole_distance(const Pole& a, const Pole& b) {
   return std::abs(a.frequency() - b.frequency()) / std::max(a.frequency(), b.frequency()) + 1.0 -

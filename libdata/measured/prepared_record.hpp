@@ -8,13 +8,13 @@ namespace whirl::inline data {
 struct PreparedRecord {
   Mat samples;                   ///< times x channels, each of mean zero and variance one
   double spacing = 0.0;          ///< time between them [s]
-  Eigen::RowVectorXd deviation;  ///< standard, of the channels before, in their units
+  Eigen::RowVectorXd deviation;  ///< standard deviation of each channel before, in its unit
 };
 
 /// Looks at a record, takes harmonics of the speed out of it if that is asked for, and thins it
 /// out.
 ///
-/// @param found  its channels are known; gets the speed and what was done about its harmonics
+/// @param found  has its channels; receives the speed and what was done about its harmonics
 /// @throws ModelError, OptionError  as running_modes
 PreparedRecord prepared(const Mat& samples, double spacing, const RunningModesOptions& options,
                         RunningModes& found);

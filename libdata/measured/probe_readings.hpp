@@ -14,7 +14,7 @@ namespace whirl::inline data {
 /// What a channel gives per displacement.
 struct ProbeGain {
   enum class Of { length, voltage, number };
-  Of of = Of::length;  ///< length: as another length, so that the value says scale and sign only
+  Of of = Of::length;  ///< length: channels are lengths, the value gives scale and sign
   double value = 1.0;  ///< [1], [V/m], [1/m]; not zero
 };
 
@@ -29,7 +29,7 @@ struct MeasuredProbe {
   Probe probe;
   std::string channel;  ///< name or number
   ProbeGain gain{};
-  double unit_length = 1e-6;   ///< of the unit of the probe, for channels without one [m]
+  double unit_length = 1e-6;   ///< unit of the probe, for channels without a unit [m]
   bool is_unit_given = false;  ///< whether somebody said that unit
   std::optional<FullScale> full_scale{};
 };
@@ -47,7 +47,7 @@ struct ProbeReadings {
   std::vector<Probe> probes;
   Mat displacement;  ///< samples x probes [m]
   std::vector<std::vector<Eigen::Index>>
-      missing{};  ///< per probe: samples that a line is in place of
+      missing{};  ///< per probe: samples that were missing, and that a straight line fills
   std::optional<TurnClock> clock{};
   std::vector<std::string> notes{};  ///< what is wrong with the record and could be helped
 
@@ -56,9 +56,10 @@ struct ProbeReadings {
 
 /// Reads the channels of probes, and the key-phasor if there is one.
 ///
-/// Numbers of a channel without a unit are voltages for a gain of these, else in the unit of the
-/// probe; shares of full scale likewise of 1, where the probe does not say what full scale is. Both
-/// are noted. Gaps are filled, and clipped, constant and equal channels are noted.
+/// Numbers of a channel without a unit are voltages if the gain is one of voltages, else lengths in
+/// the unit of the probe. Shares of full scale are taken likewise, with a full scale of 1, where
+/// the probe does not say what full scale is. Both cases are noted. Gaps are filled, and clipped,
+/// constant and equal channels are noted.
 ///
 /// @throws OptionError  for a channel that the record does not have or that is in no unit of its
 ///                      gain, and as without_gaps and TurnClock

@@ -8,8 +8,9 @@
 
 namespace whirl::inline data {
 
-/// Adds to notes: probes of a station of very different size; samples too slow for what moves;
-/// without a key-phasor, a speed that nothing turns with; 1X that turns backward.
+/// Adds to notes: probes of one station whose readings differ much in size; a sampling rate too low
+/// for what moves; without a key-phasor, a speed at which nothing in the record turns; 1X that
+/// turns backward.
 ///
 /// @param spectra  of the readings at these stations
 /// @param Omega    of the rotor [rad/s]

@@ -1,6 +1,6 @@
 #pragma once
-/// Modes of a machine while it runs, from its measured motion alone: which forces drive it is not
-/// asked, as long as they are broadband.
+/// Modes of a machine while it runs, from its measured motion alone: the forces that drive it need
+/// not be known, but must be broadband.
 
 #include <limits>
 #include <string>
@@ -21,26 +21,26 @@ struct RunningModesOptions {
   double share = 0.3;  ///< of all orders, in which a mode must be stable
   int stretches = 10;  ///< of the record, for standard deviations; 0: none
   double most_deviation =
-      0.5;             ///< standard, of a mode's eigenvalue over its distance from the axis
+      0.5;             ///< standard, of an eigenvalue over its distance from the imaginary axis
   int segment = 2048;  ///< samples of a segment of the spectra, an eighth of the record at most
   double speed = 0.0;  ///< of the rotor, constant; 0: unknown, no harmonics [rad/s]
-  Vec phase{};         ///< of the rotor at every sample in place of a speed, of a key-phasor [rad]
+  Vec phase{};         ///< of the rotor at every sample, by a key-phasor, in place of a speed [rad]
   int harmonics = 10;  ///< of the speed that are marked and removed
   bool removes_harmonics = true;
 };
 
-/// A mode that the models of many orders agree on. Its shape has the units of the channels, the
+/// A mode that the models of many orders agree on. Its shape has the units of the channels, and its
 /// largest entry is one.
 struct RunningMode : Pole {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double frequency_deviation = unknown, damping_deviation = unknown;  ///< standard; NaN: not known
   double frequency_scatter = 0.0, damping_scatter = 0.0;              ///< standard, over orders
-  int order = 0;                                                      ///< that the shape is of
-  int orders = 0;                                                     ///< with this mode
+  int order = 0;                                                      ///< model order of the shape
+  int orders = 0;                                                     ///< orders with this mode
   // where there is a model to compare with: see compare()
   std::string whirl{};        ///< sense of whirl; "": no station shows it
-  std::vector<double> mac{};  ///< against each of its modes, by what the probes read
-  int model_mode = -1;        ///< the one that it is most like, from 0; -1: none is alike
+  std::vector<double> mac{};  ///< against each mode of the model, by what the probes read
+  int model_mode = -1;        ///< mode of the model that it is most like, from 0; -1: none is alike
   double shift = unknown;     ///< frequency over that mode's, less one
 
   static constexpr auto columns() {
@@ -126,9 +126,10 @@ struct RunningModes {
 /// Harmonics of the speed are taken out first (without_harmonics), and what is left of them is
 /// marked. Channels are divided by their standard deviations, so that their units do not matter.
 ///
-/// Standard deviations are those of the jackknife: the same from all stretches of the record but
-/// one, one after the other. Poles that large models make of noise are stable, too, for a while;
-/// what tells them is that they are elsewhere without a stretch. A group of poles is a mode only if
+/// Standard deviations are those of the jackknife: modes are identified again from all stretches of
+/// the record but one, for each stretch that is left out. Poles that large models make of noise may
+/// be stable over some orders, too, but they move when a stretch is left out. A group of poles is a
+/// mode only if
 ///
 ///   hypot(deviation of w, |lambda| deviation of zeta) <= most_deviation |Re lambda|
 ///
@@ -140,8 +141,9 @@ struct RunningModes {
 /// @source jackknife over stretches [Kuensch1989]
 RunningModes running_modes(const Mat& samples, double spacing, const RunningModesOptions& options);
 
-/// Block rows so that the covariance matrix has about 240 rows: 20 to 100. Fewer are taken, 20 at
-/// least, where covariances fall below half of the largest one before.
+/// Number of block rows with which the covariance matrix has about 240 rows: 20 to 100. If
+/// covariances fall below half of the largest one before that, running_modes() takes fewer, but at
+/// least 20.
 int usual_block_rows(Eigen::Index channels);
 
 }  // namespace whirl::inline data

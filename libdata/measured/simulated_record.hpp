@@ -10,13 +10,14 @@ namespace whirl::inline data {
 
 /// Noise of channels.
 struct ChannelNoise {
-  double share = 0.0;      ///< standard deviation, of that of the signal without noise
+  double share = 0.0;      ///< standard deviation over that of the signal
   std::uint64_t seed = 1;  ///< each channel has a sequence of its own
 };
 
-/// A record of a run: a channel per probe as its gain says, and of the key-phasor pulses of height
-/// one, whose edge crosses one half where the rotor is at its angle. Channels that are numbers are
-/// at these places, others by their names in between.
+/// A record of a run: a channel per probe, by its gain, and a channel of the key-phasor. Its pulses
+/// are twice as high as the threshold, or 1 high without a threshold, and their edge crosses half
+/// of the height where the rotor is at the key-phasor's angle. Channels that are named by a number
+/// have that place, others the places between.
 ///
 /// @pre  run.has_motion()
 /// @throws OptionError  for more pulses than samples can show

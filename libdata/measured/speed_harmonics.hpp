@@ -13,33 +13,34 @@ Vec constant_speed_phase(double Omega, double spacing, Eigen::Index samples);
 /// Mean speed over a record [rad/s].
 double mean_speed(const Vec& phase, double spacing);
 
-/// A constant speed, found more closely than it was given: the one near it under whose first
-/// harmonic the channels have most energy, within half a per cent.
+/// A constant speed, found more closely than it was given, within half a per cent of that.
 ///
-/// The line of the highest harmonic peak of all is located between the bins of a spectrum of the
-/// whole record; where no peak stands ten times above its surroundings, the speed stays as it was
-/// given.
+/// Of the peaks at harmonics of the speed, in the spectra of the whole record, the one that stands
+/// highest above its surroundings is located between the bins and gives the speed. Where no peak
+/// stands ten times above its surroundings, the speed stays as it was given.
 double refined_speed(const Mat& samples, double spacing, double Omega, int harmonics);
 
 /// Takes the mean and the parts that turn with the rotor out of each channel:
 ///
 ///   y(t) - sum over k = 0 ... harmonics of (a_k cos(k phase) + b_k sin(k phase))
 ///
-/// with a_k and b_k of least squares over the whole record: the average over revolutions, whose
-/// samples need not be at equal angles. Harmonics at or above half the sampling rate are left out.
+/// with a_k and b_k by least squares over the whole record. What is taken out is the average over
+/// revolutions, whose samples need not be at equal angles. Harmonics at or above half the sampling
+/// rate are left out.
 ///
 /// @param samples  times x channels
 /// @param phase    of the rotor at the samples [rad], as from a key-phasor
 /// @source [Braun1975], synchronous averaging; before modal analysis [Peeters2007]
 Mat without_harmonics(const Mat& samples, const Vec& phase, int harmonics);
 
-/// Damping ratio, either way, below which a pole is that of a line: of what turns forever.
+/// Magnitude of the damping ratio below which a pole is that of a line, of a motion that goes on
+/// forever.
 constexpr double line_damping = 0.002;
 
 /// The harmonic of a speed that a pole is; 0: none.
 ///
 /// A harmonic is a line: its pole has hardly any damping. A mode that happens to lie at a harmonic
-/// is told apart by that.
+/// is told apart by its damping.
 ///
 /// @param tolerance  relative distance of the frequencies
 int harmonic_at(double frequency, double damping_ratio, double speed, int harmonics,

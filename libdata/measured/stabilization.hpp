@@ -20,8 +20,8 @@ struct StabilityLimits {
 struct OrderPole : Pole {
   int order = 0;
   bool is_stable_frequency = false, is_stable_damping = false, is_stable_shape = false;
-  int harmonic = 0;  ///< of the speed, that the pole is; 0: none
-  int mode = -1;     ///< that it is an estimate of, from 0; -1: none
+  int harmonic = 0;  ///< harmonic of the speed that the pole is; 0: none
+  int mode = -1;     ///< mode that the pole is an estimate of, from 0; -1: none
 
   bool is_stable() const { return is_stable_frequency && is_stable_damping && is_stable_shape; }
 
@@ -54,9 +54,9 @@ void find_stable(std::vector<std::vector<OrderPole>>& orders, const StabilityLim
 ///
 /// Stable poles that are no harmonic are joined while the mean pole_distance() of two groups is at
 /// most what the limits allow between neighboring orders, (limit of frequency) + 1 - (limit of
-/// MAC); the nearest two first. Of several poles of one order a group keeps the one nearest to its
-/// median. A group is a mode if it has poles of a share of all orders. Whether shapes are real is
-/// not asked: those of rotors are not.
+/// MAC); the nearest two first. Of several poles of one order a group keeps the one nearest to the
+/// group's median. A group is a mode if it has poles of at least a share of all orders. Shapes need
+/// not be real: those of rotors are not.
 ///
 /// @param share  of the orders, 0 to 1
 /// @return       numbers of the poles in each mode, by ascending median frequency

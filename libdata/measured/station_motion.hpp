@@ -11,16 +11,16 @@ namespace whirl::inline data {
 
 /// The probes of one station, and what takes their readings to its displacement.
 ///
-/// Axial probes at one face are a station of their own: what they read at the angles a is
-/// (-r theta_y) cos a + (r theta_x) sin a, as if x were -r theta_y and y were r theta_x, and whirls
-/// as these do.
+/// Axial probes at one face are a station of their own. Their readings at the angles a,
+/// (-r theta_y) cos a + (r theta_x) sin a, are as if x were -r theta_y and y were r theta_x. This
+/// motion (x, y) whirls as the tilts do.
 struct ProbedStation {
   Point point;
   double face_radius = 0.0;  ///< r of axial probes [m]; 0: they look across the shaft
   std::string name;          ///< names of its probes, joined by " + "
   std::vector<int> probes;   ///< numbers from 0
-  /// (x, y) = to_plane * readings, the least squares of more than two. Of probes along one line it
-  /// is the motion along that.
+  /// (x, y) = to_plane * readings, by least squares for more than two probes. For probes along one
+  /// line, (x, y) is the motion along that line.
   Mat to_plane;
   bool is_planar = false;  ///< whether the probes see one direction only
 };

@@ -13,7 +13,7 @@ struct OutputProducts {
   std::vector<Mat> sums;  ///< channels x channels, of lags 0, 1, ...
   double count = 0.0;     ///< products in each sum
 
-  /// Of both stretches together.
+  /// The products of both stretches together.
   OutputProducts& operator+=(const OutputProducts& other);
   OutputProducts& operator-=(const OutputProducts& other);
 };
@@ -21,7 +21,7 @@ struct OutputProducts {
 /// Products that begin in a stretch of a record.
 ///
 /// @param samples  times x channels, of mean zero
-/// @param lags     that there are, from 0 on
+/// @param lags     number of lags, from 0 on
 /// @param first    beginning of the stretch; count: its samples, first + count + lags <= times + 1
 OutputProducts output_products(const Mat& samples, int lags, Eigen::Index first,
                                Eigen::Index count);
@@ -34,9 +34,9 @@ OutputProducts output_products(const Mat& samples, int lags, Eigen::Index first,
 ///
 ///   T = [R_i ... R_1; R_(i+1) ... R_2; ...; R_(2i-1) ... R_i] = U S V^T,   O = U S^(1/2)
 ///
-/// C is the first block of O, A its shift: O without its last block times A is O without its first
-/// one, by least squares. The scale S^(1/2) changes coordinates only and is left out. O of order n
-/// is the first n columns of U, so that one QR decomposition gives the A of every order.
+/// C is the first block of O, and A is its shift: O without its last block, times A, is O without
+/// its first block, by least squares. The scale S^(1/2) changes coordinates only and is left out. O
+/// of order n is the first n columns of U, so that one QR decomposition gives the A of every order.
 ///
 /// @source [PeetersDeRoeck1999]; all orders from one QR [DoehlerMevel2012]
 class SubspaceModels {
@@ -49,7 +49,8 @@ class SubspaceModels {
   int most_order() const { return static_cast<int>(R_.cols()); }
   const Vec& singular_values() const { return singular_values_; }  ///< of T, descending
 
-  /// Poles of the model of an order that oscillate, ascending in frequency; they may grow.
+  /// Oscillating poles of the model of an order, ascending in frequency; oscillations may grow,
+  /// too.
   ///
   /// A = e^(A_c dt): lambda = ln(mu) / dt, shape = C psi.
   /// @param spacing  time between samples [s]
@@ -58,7 +59,7 @@ class SubspaceModels {
  private:
   Vec singular_values_;
   Mat C_;            ///< channels x most_order
-  Mat R_, shifted_;  ///< R A = shifted of the largest order: of others, their upper left corners
+  Mat R_, shifted_;  ///< R A = shifted for the largest order; for others, their upper left corners
 };
 
 }  // namespace whirl::inline data

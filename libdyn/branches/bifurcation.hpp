@@ -1,5 +1,5 @@
 #pragma once
-/// Where branches of periodic orbits change: test functions, and branches that begin there.
+/// Bifurcations of branches of periodic orbits: test functions, and the branches that begin there.
 
 #include <optional>
 
@@ -7,33 +7,35 @@
 
 namespace whirl::inline dyn {
 
-/// A function that changes its sign where a bifurcation of a kind is passed; none for grazings.
+/// A test function, whose sign changes where the branch passes a bifurcation of a kind; for a
+/// grazing, which has none, it is always 1.
 ///
 ///   fold             the parameter's share of the tangent
 ///   period doubling  prod (mu_i + 1)
-///   pitchfork        prod (mu_i - 1), which folds change, too
-///   Neimark-Sacker   prod_(i<j) (mu_i mu_j - 1), which real pairs change, too
+///   pitchfork        prod (mu_i - 1); its sign changes at folds, too
+///   Neimark-Sacker   prod_(i<j) (mu_i mu_j - 1); its sign changes at a real pair mu, 1 / mu, too
 ///
-/// Of a product, only the sign is taken; the size is that of its smallest factor.
+/// A product gives the sign of the test function, the smallest factor its size.
 ///
 /// @source [Kuznetsov2004], 10.2.3
 double test_function(BifurcationKind kind, const BranchPoint& point);
 
-/// The multiplier that a bifurcation is about.
+/// The critical multiplier: the nearest to 1, at a period doubling to -1, at a Neimark-Sacker point
+/// one of the pair with the product nearest to 1; NaN at a grazing.
 Complex critical_multiplier(BifurcationKind kind, const CVec& multipliers);
 
-/// Where a branch begins that another one leads to.
+/// Start of a branch that begins at a bifurcation of another branch.
 struct SwitchedBranch {
   int period;  ///< [revolutions]
   BranchPoint start;
 };
 
-/// First point of the branch that begins at a period doubling or a pitchfork, its tangent along the
-/// critical direction; nothing for other kinds, or where the direction cannot be told.
+/// First point of the branch that begins at a period doubling or a pitchfork, with its tangent
+/// along the critical direction; nothing for other kinds, or where that direction is not found.
 ///
-/// @param flow_at, scale  of the branch that it is on
+/// @param flow_at, scale  of the branch that the bifurcation is on
 /// @param period          of that branch [revolutions]
-/// @return  to be continued within the same range of the parameter
+/// @return  the start of a walk within the same range of the parameter
 std::optional<SwitchedBranch> switch_branch(const FlowAt& flow_at, const Vec& scale, int period,
                                             const Bifurcation& at);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A branch of periodic motions along a parameter: its equations, its points, where it changes.
+/// A branch of periodic motions along a parameter: its equations, points, bifurcations and end.
 
 #include <array>
 #include <functional>
@@ -13,20 +13,21 @@
 
 namespace whirl::inline dyn {
 
-/// Equations for the unknowns x of a motion at a value of the parameter, as many as unknowns.
+/// Equations of a motion at a value of the parameter, as many as there are unknowns x.
 struct BranchEquations {
   struct Value {
-    Vec residual;                          ///< of all equations, in scales; empty: they failed
-    Mat jacobian;                          ///< by x, if it is wanted
+    Vec residual;                          ///< of all equations, in scales; empty: see failure
+    Mat jacobian;                          ///< of the residual by x, if wanted
     std::vector<ContactMeasure> contacts;  ///< shares of the period
-    std::function<CVec()> multipliers;     ///< the largest first; likewise, where the residual is 0
-    /// Derivative of the residual by the parameter's value at fixed x, exact; likewise. A null
-    /// function, an empty value or a NumericalError: it is not known, and taken as a difference.
+    std::function<CVec()> multipliers;     ///< of a solution, the largest first; as the jacobian
+    /// Exact derivative of the residual by the parameter's value at fixed x, if the jacobian is
+    /// wanted. A null function, an empty value or a NumericalError: the derivative is not known,
+    /// and a difference takes its place.
     std::function<Vec()> slope;
     Failure failure;
   };
   std::function<Value(const Vec& x, double value, WithTangent wanted)> at;
-  double difference = 3e-6;  ///< of the parameter's range, for the derivative by it
+  double difference = 3e-6;  ///< step of a difference by the parameter, over its range
 };
 
 enum class BifurcationKind { fold, period_doubling, neimark_sacker, pitchfork, grazing };
@@ -43,7 +44,7 @@ struct BranchPoint {
   double value = 0.0;  ///< of the parameter
   Vec z;               ///< unknowns [scales], then the parameter, 0 at low and 1 at high
   Vec tangent;         ///< to the branch, of length 1 in its metric
-  double step = 0.0;   ///< of the arc length, to the next point
+  double step = 0.0;   ///< arc length to the next point
   CVec multipliers;    ///< the largest first; empty: start of a branch that is switched to
   double residual = 0.0;
   std::vector<ContactMeasure> contacts;  ///< shares of the period
@@ -61,21 +62,21 @@ struct Bifurcation {
   BifurcationKind kind = BifurcationKind::fold;
   BranchPoint at;
   std::size_t after = 0;    ///< number of the point before it
-  std::string contact;      ///< of a grazing: which
-  double change = 0.0;      ///< of a grazing: in its impacts a period, along the branch
+  std::string contact;      ///< that grazes; of a grazing only
+  double change = 0.0;      ///< of a grazing: of its contact's impacts a period
   Complex multiplier{1.0};  ///< the critical one; of a grazing NaN
 };
 
 /// What makes a branch end.
 enum class EndKind {
   range,          ///< the end of the parameter's range
-  closed,         ///< the first orbit again
-  period_halved,  ///< its orbits come to repeat after half their period
-  most_points,    ///< as many as asked for
-  grazing,        ///< a contact touches otherwise from there on, and no orbit is found
-  no_orbit,       ///< none is found, for another reason
-  no_start,       ///< its first point could not be found
-  untold          ///< a sentence in a file that does not say which
+  closed,         ///< the branch comes back to its first orbit
+  period_halved,  ///< the orbits repeat after half their period from there on
+  most_points,    ///< the branch has as many points as asked for
+  grazing,        ///< a contact grazes, and no orbit is found beyond
+  no_orbit,       ///< no orbit is found, for another reason
+  no_start,       ///< the first point of the branch was not found
+  untold          ///< the kind is not known: the file has a sentence only
 };
 constexpr auto choices(EndKind) {
   return std::array{Choice<EndKind>{"range", EndKind::range},
@@ -99,10 +100,10 @@ struct Branch {
   int period = 1;
   std::vector<BranchPoint> points;
   std::vector<Bifurcation> bifurcations;  ///< in the order of the branch
-  std::optional<BranchEnd> end;           ///< none: it goes on
+  std::optional<BranchEnd> end;           ///< nothing: the branch goes on
 
   bool ends_as(EndKind kind) const { return end && end->kind == kind; }
-  /// Why it ends, as a sentence; empty while it goes on.
+  /// Why the branch ends, as a sentence; empty while the branch goes on.
   std::string end_text() const { return end ? end->text : ""; }
 };
 

@@ -10,19 +10,21 @@
 
 namespace whirl::inline dyn {
 
-/// The equations of motion at a value of the parameter, with the same places of forces throughout.
-/// May throw NumericalError where there are none.
+/// The equations of motion at a value of the parameter, with forces at the same places at every
+/// value. May throw NumericalError where there are no equations.
 using HarmonicProblemAt = std::function<std::shared_ptr<const HarmonicProblem>(double value)>;
 
-/// Derivative of that problem by the value, in its coordinates (HarmonicEquations::slope); nothing
-/// where it is not known. A null function: it never is.
+/// Derivative of a HarmonicProblem by the value, in the coordinates of the problem
+/// (HarmonicEquations::slope); nothing where the derivative is not known. A null function: it is
+/// not known anywhere.
 using HarmonicSlopeAt = std::function<std::optional<HarmonicProblem>(double value)>;
 
-/// Those of harmonic balance for a walk along the parameter, with the same harmonics throughout.
+/// Equations of harmonic balance for a walk along the parameter, with the same harmonics at every
+/// value.
 ///
-/// Unknowns are the Fourier coefficients of the displacements at forces over the length scale,
-/// which no change of the modes touches. Multipliers are those of Hill's method; those that it
-/// leaves out count as zero.
+/// Unknowns are the Fourier coefficients of the displacements at forces over the length scale;
+/// these do not depend on the modes of the basis. Multipliers come from Hill's method; multipliers
+/// that the method leaves out count as zero.
 ///
 /// @param period, harmonics  of the orbits
 /// @param scale              of displacements [m]
@@ -32,7 +34,7 @@ BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int
 /// The unknowns of an orbit.
 Vec harmonic_unknowns(const HarmonicOrbit& orbit, double scale);
 
-/// The orbit of unknowns x, with as much of it as follows from them at once.
+/// The orbit of unknowns x: its motion, ports and residual, without levels and truncation.
 HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, int period,
                                 double scale);
 

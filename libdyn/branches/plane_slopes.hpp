@@ -18,13 +18,13 @@ struct ParameterEnds {
   double low = 0.0, high = 1.0;
 };
 
-/// The systems over a plane of two parameters p and q, whose numbers are interpolated along lines.
+/// Systems over a plane of two parameters p and q, with their numbers interpolated along lines.
 ///
-/// Most numbers are those of one parameter or a sum, c(p, q) = a(p) + b(q): slopes are then those
-/// of one line each way, whose systems are made once. Otherwise, as for unbalance and speed, a line
-/// is laid through every place, of five systems and more.
+/// If every number is a sum c(p, q) = a(p) + b(q), as in most models, slopes come from one line
+/// along each parameter, whose systems are made once. Otherwise, as for unbalance and speed, a line
+/// of five systems or more is laid through every place.
 ///
-/// May be asked by several threads at once; what it says does not depend on who asked before.
+/// Several threads may ask at once; an answer does not depend on who asked before.
 class PlaneSlopes {
  public:
   using SceneAt = std::function<std::shared_ptr<const Scene>(double first, double second)>;
@@ -34,13 +34,13 @@ class PlaneSlopes {
   PlaneSlopes(SceneAt at, ParameterEnds first, ParameterEnds second)
       : at_(std::move(at)), ends_{first, second} {}
 
-  /// The panel along a parameter that holds its value at a place; null: there is no slope, for the
-  /// same reasons as along a range.
+  /// The panel along a parameter that holds its value at a place; null: there is no slope, as of
+  /// RangeSlopes without a model_at.
   std::shared_ptr<const SlopePanel> panel_at(PlaneParameter by, double first, double second) const;
 
  private:
   std::shared_ptr<const RangeSlopes> line(PlaneParameter by, double first, double second) const;
-  /// Whether numbers are those of a sum, at some places.
+  /// Whether all numbers are such sums, compared at some places.
   bool is_sum() const;
 
   SceneAt at_;
@@ -50,29 +50,29 @@ class PlaneSlopes {
   mutable std::array<std::shared_ptr<const RangeSlopes>, 2> of_sum_{};
 };
 
-/// Where a depth comes nearest to zero with a rate of zero.
+/// Where the depth of a contact has the extremum nearest to zero.
 struct NearestGraze {
   static constexpr double none = 1e3;
-  double depth = none;    ///< over the clearance: negative before a touch; none: it has no extremum
+  double depth = none;    ///< over the clearance, < 0 without a touch; none: no extremum
   std::size_t start = 0;  ///< number of the revolution
-  double time = 0.0;      ///< since its start [s]
-  int contact = 0;        ///< of ContactSystem::contacts()
+  double time = 0.0;      ///< since the start of the revolution [s]
+  int contact = 0;        ///< number in ContactSystem::contacts()
 
   bool is_found() const { return depth != none; }
 };
 
-/// What is asked of a revolution; its end by the parameter always is.
+/// What is asked of a revolution beside the derivative of its end by the parameter.
 struct RevolutionAsked {
   PlaneParameter by = PlaneParameter::first;
   bool by_start = false;
   Mat deviations{};                     ///< of the start, 2 n x any number
-  const NearestGraze* graze = nullptr;  ///< in it
+  const NearestGraze* graze = nullptr;  ///< within the revolution; null: not asked
 };
 
-/// Derivatives of a revolution, its phases held.
+/// Derivatives of a revolution with the phases held.
 struct RevolutionSlopes {
   Vec end;                               ///< of the end by the parameter
-  std::vector<Mat> deviations_by_start;  ///< per deviation, of what it is at the end: 2 n x 2 n
+  std::vector<Mat> deviations_by_start;  ///< per deviation, of its value at the end: 2 n x 2 n
   Mat deviations_by_parameter;           ///< 2 n x deviations
   Vec depth_by_start;                    ///< of NearestGraze::depth
   double depth_by_parameter = 0.0;
@@ -80,10 +80,10 @@ struct RevolutionSlopes {
 
 /// Derivatives of a revolution from phase 0 by its start and a parameter.
 ///
-/// A depth has a rate of zero where it grazes: that its time moves changes nothing, and the slope
-/// of the state there says that of the depth.
+/// The rate of a depth is zero where a contact grazes. That the instant of grazing moves changes
+/// nothing, therefore, and the slope of the state at that instant gives the slope of the depth.
 ///
-/// @param first  in whose basis states are told
+/// @param first  the scene in whose basis states are told
 /// @param panel  of the parameter, at its value
 /// @return  nothing where motions have no derivative
 std::optional<RevolutionSlopes> revolution_slopes(const Scene& scene, const Scene& first,

@@ -8,7 +8,7 @@
 
 namespace whirl::inline dyn {
 
-/// One critical speed, followed through the values by its shape; NaN where it is none.
+/// One critical speed, followed through the values by its shape; NaN where there is none.
 struct CriticalOverBranch {
   Whirl whirl = Whirl::planar;  ///< the sense it has at most values
   Vec speed, damped_speed;      ///< per value, as of Critical [rad/s]
@@ -43,8 +43,9 @@ struct CriticalOver : OverValues {
 /// Follows the lowest critical speeds over values by their shapes, see follow_shapes.
 ///
 /// @param values   ascending, one at least [SI]
-/// @param options  count: at each value; one that is among these at any is followed through all
-/// @throws NumericalError, ModelError  if none can be computed at any value
+/// @param options  count: critical speeds at each value; one that is among the lowest at any value
+///                 is followed through all values
+/// @throws NumericalError, ModelError  if critical speeds can be computed at no value
 CriticalOver critical_over(const ModelAt& model_at, ParameterName parameter,
                            const std::vector<double>& values, const CriticalOptions& options);
 

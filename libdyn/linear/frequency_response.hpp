@@ -14,11 +14,11 @@
 
 namespace whirl::inline dyn {
 
-/// Along what a force acts, or a motion is told.
+/// The direction along which a force acts, or a motion is told.
 ///
-/// A forward force is one of constant size that turns with the spin, f_x + i f_y = F e^(i w t), a
-/// backward one turns against it. Of a motion x + i y = r_f e^(i w t) + conj(r_b) e^(-i w t),
-/// forward tells r_f and backward r_b.
+/// A forward force of constant size turns with the spin, f_x + i f_y = F e^(i w t), a backward
+/// force against the spin. Of a motion x + i y = r_f e^(i w t) + conj(r_b) e^(-i w t), forward
+/// tells r_f and backward r_b.
 enum class Direction { x, y, theta_x, theta_y, forward, backward };
 
 constexpr std::array<Choice<Direction>, 6> choices(Direction) {
@@ -35,25 +35,25 @@ constexpr std::array<Choice<Direction>, 6> choices(Direction) {
 struct ResponseEnd {
   NamedPoint at;
   Direction direction = Direction::x;
-  std::optional<Probe> probe{};  ///< along whose direction instead
+  std::optional<Probe> probe{};  ///< whose direction counts instead
 
   /// "7 seal x", or the name of the probe.
   std::string label() const;
 };
 
-/// Those of a list "left disk:y,7,seal:forward,1X": a station as in select_points, x if there is no
-/// direction, or the name of a probe. An empty list stands for x and y of everything with a
-/// contact, a disk or a bearing.
-/// @throws ModelError  for an unknown station or direction, and for tilts of what has none
+/// The ends in a list "left disk:y,7,seal:forward,1X": a station as in select_points with a
+/// direction, x if there is none, or the name of a probe. An empty list stands for x and y of all
+/// points that select_points gives for an empty list.
+/// @throws ModelError  for an unknown station or direction, and for tilts of a body that has none
 std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assembler,
                                      const std::string& list);
 
 /// Complex amplitude of a motion by a force of size one, over frequency: u = Re(H f e^(i w t)).
 struct ResponsePair {
   std::string from, to;  ///< the force, the motion
-  CVec receptance;       ///< displacement; tilts are in rad, of moments by N.m [m/N]
-  CVec mobility;         ///< velocity, i w times that [m/(N.s)]
-  CVec accelerance;      ///< acceleration, -w^2 times that [1/kg]
+  CVec receptance;       ///< displacement [m/N]; tilts in rad, by moments in N.m
+  CVec mobility;         ///< velocity, i w times the receptance [m/(N.s)]
+  CVec accelerance;      ///< acceleration, -w^2 times the receptance [1/kg]
 
   static constexpr auto columns() {
     return ColumnList{
@@ -78,8 +78,9 @@ struct FrequencyResponse {
   std::vector<ResponsePair> pairs;
   std::vector<double> unbounded;  ///< undamped resonances, where responses are NaN [rad/s]
 
-  /// For each pair, whether its response is zero, or only rounding in files of before: nowhere
-  /// above 1e-10 of the largest one to the same force, displacements and tilts each by themselves.
+  /// For each pair, whether its response is zero, or only rounding in files of earlier versions:
+  /// nowhere above 1e-10 of the largest response to the same force, displacements and tilts each by
+  /// themselves.
   std::vector<bool> silent_pairs() const;
 
   static constexpr std::string_view group = "/frf";
@@ -100,7 +101,7 @@ struct FrequencyResponse {
 /// Solves (K - w^2 M + i w (C + Omega G)) q = f for a force at each end of `from`.
 ///
 /// Coefficients of bearings are those of a journal that whirls with the frequency of the force. A
-/// response that is nowhere above 1e-10 of the largest one of any point to the same force,
+/// response that is nowhere above 1e-10 of the largest response of any point to the same force,
 /// displacements and tilts each by themselves, is rounding and becomes zero.
 /// @param Omega        spin speed [rad/s]
 /// @param frequencies  0 or more [rad/s]
@@ -109,8 +110,8 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
                                      const std::vector<ResponseEnd>& from,
                                      const std::vector<ResponseEnd>& to);
 
-/// Frequencies that show the lowest modes at a speed: even ones up to 1.2 times the highest of
-/// them, and some within the width of each peak [rad/s].
+/// Frequencies that show the lowest modes at a speed: even ones up to 1.2 times that of the highest
+/// of these modes, and some within the width of each peak [rad/s].
 std::vector<double> usual_frequencies(const Assembler& assembler, double Omega);
 
 }  // namespace whirl::inline dyn

@@ -1,6 +1,6 @@
 #pragma once
-/// The lateral analysis of a machine after [API617]: how it answers to unbalance, how far its
-/// critical speeds are from its own, how stable it is, and whether that is enough.
+/// The lateral analysis of a machine after [API617]: its response to unbalance, the margins of its
+/// critical speeds, its stability, and whether these are enough.
 
 #include <array>
 #include <cmath>
@@ -19,24 +19,24 @@
 
 namespace whirl::inline dyn {
 
-/// Speeds that a model tells of its machine; in their place the operating speed, and a trip speed
-/// of 1.05 times the maximum.
+/// Speeds of the machine as a model tells them; where the model does not, the operating speed, and
+/// a trip speed of 1.05 times the maximum.
 ///
-/// @param maximum  that is gone by instead of the model's [rad/s]; the minimum is no more then, and
-///                 a trip speed below it does not count; 0: that of the model
-/// @return         maximum 0 if there is no speed
+/// @param maximum  taken instead of the model's maximum [rad/s]; a minimum above becomes equal to
+///                 this maximum, and a trip speed below does not count; 0: that of the model
+/// @return         maximum 0 if the model has no speed
 OperatingRange operating_range(const Model& model, double maximum = 0.0);
 
 struct LateralOptions {
   OperatingRange range;
-  double anticipated = 0.0;      ///< Q_A, cross-coupled stiffness to be expected [N/m]; 0: none is
+  double anticipated = 0.0;      ///< Q_A, cross-coupled stiffness to be expected [N/m]; 0: none
   bool has_anticipated = false;  ///< whether Q_A is told
   std::optional<double> gas_density = {};  ///< average of the gas [kg/m^3]; nothing: not told
   int modes = 8;                           ///< of the Campbell diagram
   int criticals = 6;                       ///< critical speeds that are looked for
 };
 
-/// What is carried by a bearing or film.
+/// What a bearing or film carries.
 struct LateralJournal {
   std::string name;
   double mass = 0.0;  ///< [kg]
@@ -66,14 +66,14 @@ struct LateralPlane {
   }
 };
 
-/// What an unbalance does, all in all.
+/// A case of unbalance, and the largest vibration that this unbalance makes.
 struct LateralCase {
   double mode_speed = 0.0;       ///< undamped critical speed of the mode that it excites [rad/s]
   Whirl whirl = Whirl::planar;   ///< of that mode
   double vibration = 0.0;        ///< largest at probes at operating speeds, peak to peak [m]
-  int probe = 0;                 ///< where, from 0
-  double vibration_speed = 0.0;  ///< and when [rad/s]
-  double scaling = 0.0;          ///< that brings it to the limit, 6 at most
+  int probe = 0;                 ///< number of that probe, from 0
+  double vibration_speed = 0.0;  ///< speed of that vibration [rad/s]
+  double scaling = 0.0;          ///< that brings the vibration to the limit, 6 at most
 
   static constexpr auto columns() {
     using C = LateralCase;
@@ -137,12 +137,12 @@ constexpr auto choices(PeakKind) {
 struct LateralPeak : ResponsePeak {
   int of_case = 0;  ///< from 0
   SeparationMargin margin;
-  PeakSides sides = PeakSides::both;  ///< of one, the other side is taken to be as far
+  PeakSides sides = PeakSides::both;  ///< of a single side, the other one is taken to be as far
 
   double found() const { return margin.actual; }
   double required() const { return margin.required; }
   PeakKind kind() const;
-  /// Whether its amplification factor follows from one side.
+  /// Whether the amplification factor of the peak follows from one side.
   bool is_one_sided() const { return sides == PeakSides::below || sides == PeakSides::above; }
 
   static constexpr auto columns() {
@@ -171,11 +171,11 @@ struct LateralPeak : ResponsePeak {
 struct LateralClearance {
   int of_case = 0;  ///< from 0
   std::string name;
-  double left = 0.0;     ///< of the clearance where the rotor rests [m]
+  double left = 0.0;     ///< what is left of the clearance with the rotor at rest [m]
   double largest = 0.0;  ///< major semi-axis there up to the trip speed, scaled [m]
-  double speed = 0.0;    ///< where it is that large [rad/s]
+  double speed = 0.0;    ///< speed of the largest one [rad/s]
 
-  /// Infinite where the rotor at rest touches already.
+  /// Largest over left; infinite where the rotor at rest touches already.
   double share() const { return left > 0.0 ? largest / left : INFINITY; }
 
   static constexpr auto columns() {
@@ -195,10 +195,10 @@ struct LateralClearance {
 enum class LateralRule {
   separation_margin,  ///< of a peak, over the nearest operating speed
   vibration,          ///< at a probe, peak to peak [m]
-  running_clearance,  ///< share of it that the scaled response takes
+  running_clearance,  ///< share of the clearance that the scaled response takes
   log_decrement,      ///< with the anticipated cross-coupling
   coupling_ratio,     ///< cross-coupling that the rotor bears over the anticipated one
-  stability_region    ///< the same ratio by the region that speed and gas are in
+  stability_region    ///< the same ratio, for the region that speed and gas density are in
 };
 constexpr auto choices(LateralRule) {
   using enum LateralRule;
@@ -217,16 +217,16 @@ constexpr auto choices(Verdict) {
                     Choice<Verdict>{"unknown", Verdict::unknown}};
 }
 
-/// A rule beside what was found.
+/// A rule, and what was found for it.
 struct LateralCheck {
   LateralRule rule = LateralRule::separation_margin;
   int of_case = -1;    ///< from 0; -1: of none
-  std::string place;   ///< station, clearance; of a stability: where the cross-coupling is
+  std::string place;   ///< station or clearance; of stability: where the cross-coupling acts
   double speed = nan;  ///< at which it was found [rad/s]
   double found = nan;  ///< in SI, as the rule says
-  double limit = nan;  ///< likewise
+  double limit = nan;  ///< in SI, as the rule says
   Verdict verdict = Verdict::unknown;
-  std::string missing{};  ///< what was not given, so that it was not checked; empty: nothing
+  std::string missing{};  ///< what was not given for the check; empty: nothing
 
   static constexpr auto columns() {
     using C = LateralCheck;
@@ -245,10 +245,10 @@ struct LateralCheck {
 struct LateralReport {
   double minimum_speed = 0.0, maximum_speed = 0.0, trip_speed = 0.0;  ///< [rad/s]
   double vibration_limit = 0.0;                                       ///< peak to peak [m]
-  std::string vibration_unit{};       ///< in which people are told it; empty: um
+  std::string vibration_unit{};       ///< in which people are told vibration; empty: um
   std::string coupled_station;        ///< where the cross-coupled stiffness acts
   double anticipated = nan;           ///< Q_A [N/m]; NaN: not told
-  double limit = nan;                 ///< Q_0 [N/m]; 0: it is unstable without Q; NaN: it bears all
+  double limit = nan;                 ///< Q_0 [N/m]; 0: unstable without Q; NaN: stable with any Q
   double log_decrement = nan;         ///< the least with Q_A, or without any cross-coupling
   double rigid_critical_speed = nan;  ///< the first one on rigid supports [rad/s]; NaN: none
   double gas_density = nan;           ///< average [kg/m^3]; NaN: not told
@@ -267,7 +267,7 @@ struct LateralReport {
   bool is_passed() const;
   /// Maximum speed over the first critical speed on rigid supports.
   double critical_speed_ratio() const { return maximum_speed / rigid_critical_speed; }
-  /// Of the screening; nothing: not told enough.
+  /// Region of the screening; nothing: too little is told.
   std::optional<StabilityRegion> region() const;
 
   static constexpr std::string_view group = "/lateral";
@@ -323,14 +323,15 @@ struct LateralStudy {
 
 /// Analyses a model with its oil films linearized; its own unbalance and bow are left out.
 ///
-/// Modes are those of critical speeds up to 1.5 times the maximum continuous speed; responses go
-/// from a tenth of it to that, at the stations of the model's probes, without any at bearings and
-/// oil films, and vibration is told along the major axis. For running clearances the unbalance is
-/// scaled so that the probes are at the vibration limit. Cross-coupled stiffness acts at the node
-/// that is nearest to the middle between the outermost journals, at the maximum continuous speed. A
-/// check that asks for what was not given is unknown, and says what is missing.
+/// Unbalance excites the modes of critical speeds up to 1.5 times the maximum continuous speed.
+/// Responses go from a tenth of that maximum to 1.5 times it, or to the trip speed if that is
+/// higher: at the stations of the model's probes across the shaft, or at bearings and oil films if
+/// there are no such probes. Vibration is told along the major axis. For running clearances the
+/// unbalance is scaled so that the probes are at the vibration limit. Cross-coupled stiffness acts
+/// at the node that is nearest to the middle between the outermost journals, at the maximum
+/// continuous speed. A check that asks for what was not given is unknown, and says what is missing.
 ///
-/// @throws ModelError      if nothing carries the shaft, or there is none
+/// @throws ModelError      if nothing carries the shaft, or there is no shaft
 /// @throws NumericalError  as the analyses
 /// @source [API617], [API684]
 LateralStudy lateral_report(const Model& model, const LateralOptions& options);

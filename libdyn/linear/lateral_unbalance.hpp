@@ -1,5 +1,5 @@
 #pragma once
-/// Unbalance as a lateral analysis places it: at the antinodes of each mode, as much as the
+/// Unbalance as a lateral analysis places it: at the antinodes of each mode, by the mass that the
 /// journals carry.
 
 #include <vector>
@@ -19,8 +19,8 @@ struct Journal {
   double mass = 0.0;  ///< of its static load [kg]
 };
 
-/// Bearings and oil films on the shaft, left to right, with what they carry at a speed [rad/s]. A
-/// model without gravity is given that of the earth.
+/// Bearings and oil films on the shaft, left to right, with the mass that each of them carries at a
+/// speed [rad/s]. In a model without gravity the gravity of the earth acts.
 /// @throws ModelError      as static_equilibrium
 /// @throws NumericalError  as FilmEquilibrium::at
 std::vector<Journal> journals_of(const Model& model, const Assembler& assembler, double Omega);
@@ -40,9 +40,10 @@ struct UnbalanceCase {
 
 /// Unbalance at the antinodes of one mode.
 ///
-/// A single antinode between the journals has twice the residual unbalance that is allowed for what
-/// all of them carry; of several, and beyond the journals, each has that for what the nearest
-/// journal carries. Neighbors that move against each other have opposite phases.
+/// A single antinode between the journals has twice the residual unbalance that is allowed for the
+/// mass that all journals carry. Each of several antinodes, and one beyond the journals, has twice
+/// that for the mass that the nearest journal carries. Neighbors that move against each other have
+/// opposite phases.
 ///
 /// @source [API617], [API684]
 std::vector<UnbalancePlane> unbalance_planes(const std::vector<Antinode>& antinodes,
@@ -50,8 +51,8 @@ std::vector<UnbalancePlane> unbalance_planes(const std::vector<Antinode>& antino
                                              double maximum);
 
 /// Unbalances for every undamped critical speed up to a limit, and for the lowest one at least.
-/// Those that would repeat the places of one before are left out, as of a mode that is critical
-/// once along x and once along y: as many antinodes within a tenth of the shaft.
+/// An unbalance at the places of an earlier one is left out, as of a mode that is critical once
+/// along x and once along y: with as many antinodes, each within a tenth of the shaft.
 std::vector<UnbalanceCase> unbalance_cases(const Assembler& assembler,
                                            const std::vector<Critical>& criticals,
                                            const std::vector<Journal>& journals, double maximum,

@@ -1,5 +1,5 @@
 #pragma once
-/// Linear analyses over a value of the model: what they share.
+/// What linear analyses over a value of the model share.
 
 #include <functional>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace whirl::inline dyn {
 
-/// The model at a value of a parameter [SI]; throws ModelError where there is none.
+/// The model at a value of a parameter [SI]; throws ModelError where there is no model.
 using ModelAt = std::function<Model(double value)>;
 
 /// A parameter, and the values that it takes; results over values begin with its columns.
@@ -48,25 +48,26 @@ struct ValueGap {
 };
 std::vector<ValueGap> gaps_of(const ShapeBranches& followed);
 
-/// Where a branch was found at one of the values that were asked for, not between them.
+/// A place of a branch at one of the values that were asked for; branches have places between, too.
 struct ToldAt {
   Eigen::Index index = 0;  ///< of the value
   const ShapedValue& found;
 };
 std::vector<ToldAt> told_places(const ShapeBranch& branch, const std::vector<double>& values);
-/// Whether it is ever among so many lowest solutions there.
+/// Whether a branch is ever among so many lowest solutions at its places.
 bool is_among_lowest(const std::vector<ToldAt>& places, int count);
 
 /// Solutions computed beyond those that are wanted, for newcomers.
 inline constexpr int spare_solutions = 2;
-/// Up to which number shapes must agree: a little more than those of the lowest solutions at the
-/// first and the last value that can be computed, whichever is higher.
-/// @param count  of these
+/// Frequency or speed up to which shapes must agree: a little more than that of the highest
+/// solution wanted, at the first or the last value that can be computed, whichever is higher.
+/// @param count  of solutions wanted
 /// @throws NumericalError, ModelError  what the first value throws, if all throw
 double shape_limit(const std::vector<double>& values, const SolveShapes& solve, int count);
 
 /// Shapes of models that differ, told at the same points: the nodes of a first model by their
-/// places along the shaft, then its bodies. Between nodes of another mesh a shape is straight.
+/// places along the shaft, then its bodies. A shape is taken as straight between the nodes of
+/// another mesh.
 class ShapeSampler {
  public:
   explicit ShapeSampler(const Assembler& first);
@@ -76,7 +77,7 @@ class ShapeSampler {
   /// @throws ModelError  if the bodies are not those of the first model
   CVec at_points(const Assembler& assembler, const DofMap& dofs, const CVec& shape) const;
 
-  /// A unit matrix of the size of what it tells, the weight to follow shapes with.
+  /// A unit matrix of the size of at_points, the weight with which shapes are followed.
   Sparse weight() const;
 
  private:

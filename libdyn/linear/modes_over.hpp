@@ -68,8 +68,9 @@ struct ModesOver : OverValues {
 /// neighboring values at which it has different signs.
 ///
 /// @param values  ascending, one at least [SI]
-/// @param count   modes at each value; a mode that is among these at any is followed through all
-/// @throws NumericalError, ModelError  if modes cannot be computed at any value
+/// @param count   modes at each value; a mode that is among these at any value is followed through
+///                all values
+/// @throws NumericalError, ModelError  if modes can be computed at no value
 ModesOver modes_over(const ModelAt& model_at, ParameterName parameter,
                      const std::vector<double>& values, int count);
 

@@ -41,7 +41,7 @@ struct RestingProbe : ProbeLabel {
   }
 };
 
-/// Its parts are groups of a file by themselves.
+/// A static study; its parts are groups of a file by themselves.
 struct StaticStudy {
   std::vector<RestingStation> stations;  ///< all named places
   StaticEquilibrium at_rest;
@@ -66,7 +66,7 @@ struct StaticStudy {
   }
 };
 
-/// The equilibrium of a model at its speed; films carry as they do there, contacts are left out.
+/// The equilibrium of a model at its speed; films carry as at that speed, contacts are left out.
 /// @throws ModelError      as static_equilibrium
 /// @throws NumericalError  as FilmEquilibrium::at
 StaticStudy static_study(const Model& model, const Assembler& assembler);

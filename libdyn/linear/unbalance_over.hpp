@@ -9,11 +9,11 @@
 
 namespace whirl::inline dyn {
 
-/// A station, over the values; NaN where nothing can be computed.
+/// The response of a station over the values; NaN where nothing can be computed.
 struct UnbalanceOverStation {
   std::string station;
   Vec largest;        ///< major semi-axis over all speeds, per value [m]
-  Vec largest_speed;  ///< where it is so large [rad/s]
+  Vec largest_speed;  ///< speed of the largest one [rad/s]
   Vec at_operation;   ///< major semi-axis at the operating speed, NaN without one [m]
 
   static constexpr auto columns() {
@@ -28,10 +28,10 @@ struct UnbalanceOverStation {
   }
 };
 
-/// A probe, likewise.
+/// The reading of a probe over the values; NaN where nothing can be computed.
 struct UnbalanceOverProbe : ProbeLabel {
   Vec largest;        ///< reading over all speeds, peak to peak, per value [m]
-  Vec largest_speed;  ///< where it is so large [rad/s]
+  Vec largest_speed;  ///< speed of the largest one [rad/s]
   Vec at_operation;   ///< reading at the operating speed, peak to peak [m]
 
   static constexpr auto columns() {
@@ -64,7 +64,7 @@ struct UnbalanceOverPeak : StationPeak {
   }
 };
 
-/// Group /unbalance_over.
+/// Responses over a value; group /unbalance_over.
 struct UnbalanceOver : OverValues {
   std::vector<UnbalanceOverStation> stations;
   std::vector<UnbalanceOverProbe> probes;
@@ -92,7 +92,7 @@ struct UnbalanceOverOptions {
   std::string stations;  ///< as select_points
 };
 
-/// Responses at values; where one cannot be computed that is told, and the others come.
+/// Responses at values; a value whose response cannot be computed becomes a gap.
 /// @param values  ascending, one at least [SI]
 /// @throws NumericalError, ModelError  if the first model has no such stations, or no value can be
 ///                                     computed

@@ -17,7 +17,7 @@ namespace whirl::inline dyn {
 
 struct UnbalanceOptions {
   std::vector<double> speeds;     ///< ascending [rad/s]
-  bool has_given_speeds = false;  ///< else only their range counts, and the curve's own are taken
+  bool has_given_speeds = false;  ///< else their range counts, and the curve's speeds are taken
   std::vector<NamedPoint> stations;
   bool tells_all = true;  ///< responses to forces of other frequencies and clearances, too
 };
@@ -28,7 +28,8 @@ struct StationResponse {
   std::string name, label;
   CVec x, y;         ///< complex amplitudes, per speed [m]
   Vec major, minor;  ///< semi-axes, the minor one > 0 forward, per speed [m]
-  /// The same over the speeds of the curve; empty if the speeds are these.
+  /// Amplitudes and major semi-axis over the speeds of the curve; empty if the speeds are the
+  /// curve's.
   CVec curve_x, curve_y;
   Vec curve_major;
 
@@ -115,12 +116,12 @@ struct ProbePeak : ResponsePeak {
 /// What a probe reads: Re(amplitude e^(i Omega t)).
 struct ProbeResponse : ProbeLabel {
   CVec amplitude;                ///< per speed [m]
-  CVec curve_amplitude;          ///< over the speeds of the curve; empty if the speeds are these
+  CVec curve_amplitude;          ///< over the curve's speeds; empty if the speeds are the curve's
   std::vector<ProbePeak> peaks;  ///< ascending speeds
-  ProbePeak largest;             ///< its speed and amplitude only
+  ProbePeak largest;             ///< with its speed and amplitude only
 
   Vec peak_to_peak() const { return 2.0 * amplitude.cwiseAbs(); }
-  /// Ahead of the rotor's angle Omega t, -180 to 180 [deg].
+  /// Phase ahead of the rotor's angle Omega t, -180 to 180 [deg].
   Vec phase_deg() const { return amplitude.cwiseArg() / degree; }
 
   static constexpr auto columns() {
@@ -153,7 +154,7 @@ struct ForcedReading : ProbeLabel {
   std::string forces{};             ///< names of the forces of that frequency; not in result files
 
   Vec peak_to_peak() const { return 2.0 * amplitude.cwiseAbs(); }
-  /// Ahead of w t, -180 to 180 [deg].
+  /// Phase ahead of w t, -180 to 180 [deg].
   Vec phase_deg() const { return amplitude.cwiseArg() / degree; }
 
   static constexpr auto columns() {
@@ -218,16 +219,16 @@ struct StationPeak : ResponsePeak {
 struct UnbalanceStudy {
   std::vector<double> speeds;  ///< those asked for, else those of the curve [rad/s]
   std::vector<StationResponse> stations;
-  std::vector<double> curve_speeds;  ///< as many as curves need; empty if speeds are these [rad/s]
+  std::vector<double> curve_speeds;  ///< as curves need them; empty if `speeds` are those [rad/s]
   std::vector<StationPeak> peaks;
   std::vector<ClearanceUse> clearances;
   std::vector<double> unbounded;               ///< undamped resonances [rad/s]
   std::vector<LargestResponse> largest;        ///< per station
   std::vector<ForcedResponse> forced;          ///< to forces of other frequencies, force by force
   Failure failure;                             ///< why narrow peaks may be missing
-  std::vector<ProbeResponse> probes{};         ///< those of the model
-  std::vector<ProbePeak> probe_peaks{};        ///< those of all of them
-  std::vector<ForcedReading> forced_probes{};  ///< likewise, force by force
+  std::vector<ProbeResponse> probes{};         ///< of the model
+  std::vector<ProbePeak> probe_peaks{};        ///< of all probes
+  std::vector<ForcedReading> forced_probes{};  ///< under such forces, force by force
 
   static constexpr std::string_view group = "/unbalance";
   static constexpr auto columns() {
@@ -263,7 +264,7 @@ struct UnbalanceStudy {
   }
 };
 
-/// Responses of stations, and where they come too near to what stands around them.
+/// Responses of stations, and the clearances that these responses take.
 /// @throws NumericalError  at a given speed where the dynamic stiffness is singular
 UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
                                const UnbalanceOptions& options);

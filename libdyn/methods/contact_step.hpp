@@ -19,26 +19,27 @@ struct Rung {
   int level() const { return number / 2; }
 };
 
-/// Solves for the contact forces of a step and watches what the contacts do meanwhile.
+/// Solves for the contact forces of a step and watches what the contacts do within the step.
 ///
 /// The displacement of a contact at a node is that of the exact linear motion,
 ///
 ///   u_i = free_i (y, 1, cos phase, sin phase) + sum_b kernel_ib a_b,
 ///
-/// with a the Legendre coefficients of all forces. They are those of the forces that the laws give
-/// at the nodes: a = projection f(u), solved by Picard iteration, by Newton's method where that
-/// does not contract. A contact that sticks has in place of its friction law the condition of no
-/// slip; of several that slip alike the first has it, and carries the friction of all.
+/// with a the Legendre coefficients of all forces. These are the coefficients of the forces that
+/// the laws give at the nodes: a = projection f(u), solved by Picard iteration, or by Newton's
+/// method where Picard iteration does not contract. A contact that sticks has the condition of no
+/// slip in place of its friction law; of several contacts that slip alike the first one has this
+/// condition, and carries the friction of all.
 class ContactStep {
  public:
   static constexpr int terms = 8;       ///< of a force polynomial
   static constexpr int samples = 14;    ///< of free motion: Chebyshev points
-  static constexpr double grown = 1e3;  ///< scales: a state beyond has errors by its size
+  static constexpr double grown = 1e3;  ///< scales, beyond which errors are over a state's size
   static constexpr int rows = 4;        ///< d_x, d_y, w_x, w_y of a contact
 
   /// With modes much faster than the contacts, forces are evaluated at more points than they have
-  /// coefficients: their projection leaves out what a fast mode adds to a displacement, which few
-  /// points would mistake for something slow.
+  /// coefficients: the projection of forces leaves out what a fast mode adds to a displacement,
+  /// which few points would mistake for something slow.
   ///
   /// @param longest  step size of rung 0 [s]
   ContactStep(const ContactSystem& system, double longest, double tolerance);
@@ -47,23 +48,23 @@ class ContactStep {
   /// The shortest rung that is not below a duration.
   Rung rung_for(double h) const;
 
-  /// Forces of the contacts in touch over a step from a state. False if they were not found, or the
-  /// motion is not finite.
+  /// Finds the forces of the contacts in touch over a step from a state. False if the forces were
+  /// not found, or the motion is not finite.
   bool solve(Rung rung, const MotionState& from);
 
-  /// Error of the last solve that the step makes, over the tolerance; by the scale of the state, or
-  /// by its size where it has grown.
+  /// Error of the step that was solved last, over the tolerance; by the scale of the state, or by
+  /// the size of a state that has grown.
   double error() const { return error_; }
   /// Error of the contacts' displacements between samples, by the clearance.
   double path_error() const { return path_error_; }
   long evaluations() const { return evaluations_; }
 
   /// The first event before a fraction of the step, its place as a fraction of the whole step.
-  /// @param is_sure  false if the paths are too coarse to tell whether there is one
+  /// @param is_sure  false if the paths are too coarse to tell whether there is an event
   std::optional<Event> first_event(const EventWatcher& watcher, double limit,
                                    const MotionState& from, bool& is_sure);
 
-  /// Slope of the last event's function there, per step.
+  /// Slope of the last event's function at this event, per step.
   double event_slope() const { return event_slope_; }
 
   /// The state after a fraction of the step.
@@ -78,7 +79,7 @@ class ContactStep {
  private:
   struct Nodes {              ///< of one rung, made when first used
     std::vector<Mat> free;    ///< per contact: (d_x, d_y, w_x, w_y) x nodes from (y, load)
-    std::vector<Mat> kernel;  ///< [contact * contacts + other]: the same from a of the other
+    std::vector<Mat> kernel;  ///< [contact * contacts + other]: the same from the other's a
   };
   struct Family {
     LinearFlow flow;
@@ -94,7 +95,7 @@ class ContactStep {
       return forces_at(contact, Vec2(at(0), at(1)), Vec2(at(2), at(3)));
     }
   };
-  /// How values at places give polynomials.
+  /// Places in a step, and the matrices that make polynomials of values there.
   struct Places {
     Vec s;
     Mat to_legendre, to_powers;
@@ -110,7 +111,7 @@ class ContactStep {
   Vec2 node_force(int contact, const ContactState& state, const double* node, int stride);
   bool picard(const MotionState& from);
   bool newton(const MotionState& from);
-  /// Derivatives of the value of the residual of touching contact p at node k, by all forces.
+  /// Adds the derivatives of the residual of touching contact p at node k by all forces.
   void add_slopes(const MotionState& from, const Nodes& table, Eigen::Index p, int k,
                   const Vec2& force, const Vec2& value, Mat& J);
   void residual(const MotionState& from, int contact, const double* dw, const Vec2& force,
@@ -120,10 +121,10 @@ class ContactStep {
   void estimate();
   Polynomial polynomial(const EventWatcher& watcher, int contact, EventKind kind, double limit,
                         const ContactStates& states) const;
-  /// What holds the contacts that slip as one does at a place of the step.
+  /// What holds the contacts that slip like a given one, at a place of the step.
   Hold hold_at(Eigen::Index place, int contact, const ContactStates& states) const;
-  struct Part {  ///< of the step, as fractions of it
-    int level;   ///< of its own size
+  struct Part {  ///< of the step, in fractions of the step
+    int level;   ///< of the size of the part
     double start, width;
   };
   bool dense_piece(const MotionState& from, const Part& part, double limit, const Vec& y,

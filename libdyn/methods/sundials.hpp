@@ -67,10 +67,10 @@ struct Solver {
   int (*derivative)(void*, realtype t, int k, N_Vector dky);  ///< of the interpolant
 };
 
-/// A motion on its way through a solver. Time is that since the start of the revolution.
+/// A motion on its way through a solver. Time begins with the revolution.
 ///
-/// Make one, then the solver from what it gives, with `rhs` as the derivative and the motion itself
-/// as user data; then run.
+/// Make a Motion, then the solver from its context and vectors, with `rhs` as the derivative and
+/// the Motion as user data; then run.
 class Motion {
  public:
   Motion(const ContactSystem& system, MotionState& state, double tolerance);

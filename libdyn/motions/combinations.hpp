@@ -1,5 +1,5 @@
 #pragma once
-/// Frequencies of a motion that are made of others.
+/// Frequencies of a motion that are combinations of other ones.
 
 #include <optional>
 #include <span>
@@ -32,10 +32,11 @@ struct Combination {
   std::string text() const;
 };
 
-/// The simplest combination of other frequencies that gives one, if there is any.
+/// The simplest combination of other frequencies that gives f, if there is any.
 ///
-/// Simple is what has a low order, then what has few terms. With enough numbers to choose from,
-/// some combination meets any frequency by chance: the search ends where one of twenty would.
+/// The simpler of two combinations has the lower order, or at the same order fewer terms. Among
+/// enough combinations some meets any frequency by chance: the search ends where this would happen
+/// to one frequency in twenty.
 ///
 /// @param f          signed [rad/s]
 /// @param others     signed, none of them near zero [rad/s]

@@ -11,8 +11,8 @@ namespace whirl::inline dyn {
 ///   f0 + sum_i B_i F_i = K eta + sum_j B_j N_j n_j
 ///
 /// Without oil films and where no contact is reached this is the linear sag. Films F carry as they
-/// do at the speed. What films and contacts do is found as for linear analyses (PortBalance), here
-/// in the coordinates of a motion, so that nothing happens after a start there.
+/// do at the speed. The balance is found as for linear analyses (PortBalance), but in the
+/// coordinates of a motion, so that a motion that starts there stays there.
 ///
 /// @throws NumericalError  if nothing holds the rotor, or if the iteration does not converge
 Vec equilibrium(const ContactSystem& system);

@@ -28,11 +28,11 @@ struct IdentifiedPeak {
   std::vector<double> mac;                 ///< against each mode
   int mode = 0;                            ///< best one, from 0
   double shift = 0.0;                      ///< |frequency| over that mode's, less one
-  std::optional<Combination> combination;  ///< of stronger peaks that are none themselves
+  std::optional<Combination> combination;  ///< of stronger peaks that are no combinations
   double frequency_rotating = 0.0;         ///< seen from the rotor [rad/s]
-  std::string forced{};                    ///< what drives it, as ForcedLine::name; "": nothing
+  std::string forced{};                    ///< ForcedLine::name of the cause; "": no cause
 
-  /// Of the best mode, from 1; nothing if there are no modes.
+  /// Number of the best mode, from 1; nothing if there are no modes.
   std::optional<int> mode_number() const {
     return mac.empty() ? std::nullopt : std::optional(mode + 1);
   }
@@ -66,9 +66,10 @@ struct IdentifiedPeak {
   }
 };
 
-/// The mode of the largest MAC, of those that look the same the first, from 0; -1: there is none.
+/// Number of the mode with the largest MAC, from 0, the first where several are as large; -1: there
+/// are no modes.
 int most_alike(const std::vector<double>& mac);
-/// MAC from which a shape is told to be like a mode: less than that of a line and a circle, 0.5.
+/// MAC from which on a shape counts as like a mode: below 0.5, the MAC of a line and a circle.
 constexpr double least_likeness = 0.4;
 
 /// Ratio of the two strongest frequencies seen from the rotor.
@@ -119,26 +120,27 @@ Sparse mac_weights(const DofMap& dofs, double length);
 /// The ratio p:q of small numbers nearest to high / low; smaller numbers win among good ones.
 FrequencyRatio ratio_of(double high, double low);
 
-/// A frequency that something has by itself, whatever the rotor does.
+/// A frequency of an excitation, which does not depend on the motion.
 struct ForcedLine {
-  std::string name;        ///< "1X" of the speed; "2x", "40 Hz" of forces
+  std::string name;        ///< "1X" for the speed; "2x", "40 Hz" for forces
   double frequency = 0.0;  ///< signed [rad/s]
 };
 
-/// Those of a rotor at a speed: the speed itself, and those of forces either way, as a force along
-/// a direction drives both.
+/// The forced lines of a rotor at a speed: the speed itself, and the frequencies of forces with
+/// both signs, as a force along a direction drives forward and backward motion.
 std::vector<ForcedLine> forced_lines(const Assembler& assembler, double Omega);
 
-/// The line nearest to a peak, if it is one of them within the width of a spectral line; else null.
+/// The forced line nearest to a peak, if their distance is within the width of a spectral line;
+/// else null.
 ///
 /// @param bin  distance of spectral lines [rad/s]
 const ForcedLine* forced_line_at(double frequency, const std::vector<ForcedLine>& lines,
                                  double bin);
 
-/// The system with the stiffness of its contacts added at their stations, as if closed for good: of
-/// rings and blades to lateral displacements, of faces to tilts.
+/// The system with the stiffness of its contacts added at their stations, as if all contacts were
+/// closed for good: of rings and blades to lateral displacements, of faces to tilts.
 System stiffened(const Model& model, const Scene& scene);
-/// The same of the rotor's matrices at another frequency.
+/// The same stiffness added to the rotor's matrices at another frequency.
 System stiffened(const Model& model, const Scene& scene, System system);
 
 }  // namespace whirl::inline dyn

@@ -12,7 +12,7 @@ namespace whirl::inline dyn {
 struct MotionLines {
   double bin = 0.0;  ///< distance of lines [rad/s]
   Vec total;         ///< magnitude over all points together, in the order of Spectrum::lines [m]
-  std::function<double(Eigen::Index)> radius{};  ///< largest one of a point at a line [m]
+  std::function<double(Eigen::Index)> radius{};  ///< largest radius of a point at a line [m]
   std::function<CVec(Eigen::Index)> shape{};  ///< complex amplitudes that are compared with modes
 };
 
@@ -24,7 +24,7 @@ std::vector<Mode> compared_modes(const Model& model, const Scene& scene,
 ///
 /// @param shapes   a column per mode, of what `lines.shape` gives
 /// @param weights  of the MAC
-/// @param forced   frequencies that something has by itself
+/// @param forced   frequencies of excitations
 Identification identify(const MotionLines& lines, std::vector<Mode> modes, const CMat& shapes,
                         const Sparse& weights, const std::vector<ForcedLine>& forced, double Omega,
                         const IdentifyOptions& options);

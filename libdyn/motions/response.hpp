@@ -6,10 +6,10 @@
 
 namespace whirl::inline dyn {
 
-/// Spectra of all reduced coordinates of a recording; those of any point follow by summation.
+/// Spectra of all reduced coordinates of a recording; spectra of points follow by summation.
 class ResponseSpectra {
  public:
-  /// Uses the last revolutions whose number of samples has small prime factors.
+  /// Uses the last revolutions; their number is the largest that has small prime factors only.
   ResponseSpectra(const Scene& scene, const Recording& recording);
 
   double bin() const { return bin_; }  ///< [rad/s]
@@ -24,7 +24,7 @@ class ResponseSpectra {
   /// Mean of x + i y at a point [m].
   Complex mean(const Point& point) const;
 
-  /// One line of it.
+  /// One line of the spectrum at a point.
   Complex line(const Point& point, Eigen::Index bin) const;
 
   /// Magnitude over all points together, sqrt(sum |Z_p|^2), per bin.
@@ -47,10 +47,10 @@ class ResponseSpectra {
 /// Peaks of one point, stationary and seen from the rotor.
 struct PointPeaks {
   std::vector<Peak> stationary;  ///< without the mean position
-  std::vector<Peak> rotating;    ///< frequencies less Omega, without what stands still there
+  std::vector<Peak> rotating;    ///< frequencies less Omega, without what rests in that frame
 };
 
-/// @param share  of the largest line, below which nothing counts
+/// @param share  of the largest line, below which no line counts
 PointPeaks point_peaks(const ResponseSpectra& spectra, const Point& point, double Omega,
                        double share = 0.01, int most = 12);
 

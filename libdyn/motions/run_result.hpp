@@ -31,10 +31,10 @@ struct Run {
 Mat motion_of(const Run& run, const Point& point);
 
 /// What a probe reads at the samples of a recording [m].
-/// @throws ModelError  for a station that there is not
+/// @throws ModelError  for a station that does not exist
 Vec reading_of(const Run& run, const Probe& probe);
 
-/// What a contact of a name did.
+/// What a contact did, and its name.
 struct ContactShare : ContactDoing {
   std::string name;
   double mean_slip = 0.0;  ///< [m/s]
@@ -63,11 +63,11 @@ struct ContactShares {
 };
 ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions);
 
-/// Where a motion ended: others begin there; in group /trajectory.
+/// Where a motion ended, and where other motions may begin; in group /trajectory.
 struct MotionEnd {
   Vec displacement, velocity;  ///< full vectors, see DofMap [m, rad], [m/s, rad/s]
   double phase = 0.0;          ///< [rad]
-  /// Number of the revolution, where forces do not repeat with it.
+  /// Number of the revolution, where forces do not repeat every revolution.
   std::optional<double> revolution{};
 
   static constexpr std::string_view group = "/trajectory";
@@ -88,11 +88,11 @@ struct MotionEnd {
 };
 MotionEnd motion_end(const Scene& scene, const MotionState& state);
 
-/// Where the motions of a study begin, if that is where another one ended; group /from.
+/// Start of the motions of a study that go on from another motion; group /from.
 struct StudyStart {
   Vec displacement, velocity;  ///< full vectors, see DofMap [m, rad], [m/s, rad/s]
   double phase = 0.0;          ///< [rad]
-  /// Number of the revolution, where forces of the motion before did not repeat with it.
+  /// Number of the revolution, where forces of the motion before did not repeat every revolution.
   std::optional<double> revolution{};
 
   static constexpr std::string_view group = "/from";
@@ -169,7 +169,7 @@ struct MotionRecord {
   Mat coordinates;  ///< reduced ones x samples
   Mat basis;        ///< displacement of all points = basis * coordinates
   std::vector<StationMotion> stations;
-  std::vector<ProbeSignal> probes;  ///< those of the model
+  std::vector<ProbeSignal> probes;  ///< of the model
   Mat normal, friction;             ///< contacts x samples [N]
 
   static constexpr std::string_view group = "/trajectory";
@@ -271,7 +271,7 @@ struct ProbeSummary : ProbeLabel {
   }
 };
 
-/// What there is to tell of a run as a whole.
+/// A run as a whole, in short.
 struct RunSummary {
   long revolutions = 0;  ///< recorded
   std::vector<ContactShare> contacts;
@@ -321,8 +321,8 @@ struct StationSummary {
                       column("peaks_rotating", &S::peaks_rotating, "", "seen from the rotor")};
   }
 };
-/// Of all stations of a run; none without a motion. Of a motion that grew beyond all bounds there
-/// are no peaks.
+/// Summaries of all stations of a run; none without a motion. A motion that grew beyond all bounds
+/// has no peaks.
 std::vector<StationSummary> station_summaries(const Run& run);
 
 }  // namespace whirl::inline dyn

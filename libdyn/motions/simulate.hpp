@@ -15,7 +15,7 @@ struct SimulationOptions {
   int samples = 64;        ///< per revolution, at equal phases from 0
   AnyMethod method;
   IntegrationOptions integration;
-  /// Called once per revolution with those done; returns false to stop. May be empty.
+  /// Called once per revolution with the number done; returns false to stop. May be empty.
   std::function<bool(long)> progress;
   /// Asked at every step whether to stop. May be empty.
   std::function<bool()> is_stopped;
@@ -34,7 +34,7 @@ struct Recording {
 
 struct Simulation {
   Recording recording;
-  MotionState end;          ///< where it ended
+  MotionState end;          ///< of the motion
   Integration integration;  ///< outcome, cost and failure of the whole
   double wall = 0.0;        ///< duration of the integration [s]
 };

@@ -15,22 +15,24 @@ namespace whirl::inline dyn {
 ///                     not given
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end);
 
-/// The end of an earlier motion; a stopped one ends within a turn.
+/// The end of an earlier motion; a motion that was stopped ends within a revolution.
 struct EarlierEnd {
   FullState state;
   double phase = 0.0;   ///< [rad]
-  long revolution = 0;  ///< where forces do not repeat with it
+  long revolution = 0;  ///< its number, where forces do not repeat every revolution
 };
 
-/// The same at the phase at which the earlier motion ended, and in its revolution where forces do
-/// not repeat with it; nothing: there is none.
+/// State at the start of a simulation that goes on from an earlier motion, if there is one: at the
+/// phase at which that motion ended, and in the same revolution where forces do not repeat every
+/// revolution.
 MotionState start_state(const Model& model, const Scene& scene,
                         const std::optional<EarlierEnd>& earlier);
 
 /// How many of the lowest modes a start asks for, 0 for none.
 int modes_of(const Start& start);
 
-/// The same with these modes of the scene's system, where many scenes have the same one.
+/// State at the start of a simulation with given modes of the scene's system, for many scenes that
+/// have the same system.
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end,
                         const Modes& modes);
 

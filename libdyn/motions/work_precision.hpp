@@ -16,7 +16,7 @@ namespace whirl::inline dyn {
 /// What errors are measured against: where a motion really is after some revolutions.
 struct ReferenceMotion {
   Vec end;               ///< (eta, eta')
-  double error = 0.0;    ///< its own, estimated from two independent settings; as distance
+  double error = 0.0;    ///< of this end, estimated from two independent settings; as distance
   double growth = 1.0;   ///< of a small deviation over these revolutions
   std::string made_by;   ///< in words
   long revolutions = 0;  ///< from the start
@@ -48,23 +48,23 @@ ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& s
 ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState& start,
                                  long revolutions);
 
-/// Something to be measured: moves a state on by whole revolutions at a tolerance.
+/// Something to be measured, which moves a state on by whole revolutions at a tolerance.
 struct Candidate {
   std::string name;
   std::function<Integration(MotionState& state, long revolutions, double tolerance)> move;
-  double motions = 1.0;  ///< that one call moves at once; they share its time
+  double motions = 1.0;  ///< that one call moves at once and that share its time
 };
 
 /// Names of all that can be measured: the methods of the list, and `taylor-batch` and `rk4-batch`,
 /// which move 16 motions from the same state at once, in one thread.
 std::vector<std::string_view> candidate_names();
 
-/// What has one of these names. The system must outlive it.
+/// The candidate of one of these names; the system must outlive the candidate.
 /// @throws ModelError  for an unknown name
 Candidate candidate(const ContactSystem& system, std::string_view name);
 
 struct TimingOptions {
-  int most_runs = 5;         ///< of which the median counts
+  int most_runs = 5;         ///< whose median counts
   double most_time = 0.1;    ///< after which a run is not repeated any more [s]
   double least_time = 1e-3;  ///< of a measurement; short runs are measured several at a time [s]
 };
@@ -100,7 +100,7 @@ struct TimedRun {
   }
 };
 
-/// Measures a candidate from a state to that of the reference.
+/// Measures a candidate from a state to the end of the reference.
 TimedRun measure(const Candidate& candidate, double tolerance, const ContactSystem& system,
                  const MotionState& start, const ReferenceMotion& reference,
                  const TimingOptions& options = {});

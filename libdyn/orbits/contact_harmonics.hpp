@@ -11,18 +11,20 @@ namespace whirl::inline dyn {
 
 /// @param system  must live as long as the problem
 /// @throws NumericalError  if nothing moves
-/// @throws ModelError      as require_periodic_loads
+/// @throws ModelError      for a system beyond orbit_abilities
 HarmonicProblem harmonic_problem(const ContactSystem& system);
 
-/// Its derivative by a parameter, as HarmonicEquations::slope takes it.
-/// @param slopes  of systems in the same coordinates; of contacts and films the system may have
-///                others
+/// Derivative of the harmonic problem of a system by a parameter, in the form that
+/// HarmonicEquations::slope takes.
+/// @param slopes  in the coordinates of the result; the system, of which contacts, films and orders
+///                of loads count, may have others
 HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& slopes);
 
-/// Fourier coefficients of the motion of all coordinates over the next revolutions, as if it
-/// repeated.
+/// Fourier coefficients of the motion of all coordinates over the next revolutions, as if the
+/// motion repeated.
 /// @param y  state at phase 0
-/// @return   n x (2 H + 1); the motion that the state stays at if the integration fails
+/// @return   n x (2 H + 1); after a failure of the integration, the displacements of y stand for
+///           the rest
 Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions);
 
 /// An orbit, and what the contacts do on it.
@@ -31,8 +33,8 @@ struct ContactOrbit {
   std::vector<ContactMeasure> contacts;  ///< shares of the period
 };
 
-/// Finds a periodic orbit near the motion from a state. It is none if a contact would stick on it,
-/// which series of forces that slide cannot say.
+/// Finds a periodic orbit near the motion from a state. The search fails if a contact would stick
+/// on the orbit, as the series knows sliding friction only.
 ContactOrbit find_harmonic_orbit(const ContactSystem& system, const Vec& y,
                                  const HarmonicOptions& options);
 

@@ -11,9 +11,9 @@ namespace whirl::inline dyn {
 
 struct HarmonicOptions {
   int period = 1;     ///< of the orbit [revolutions]
-  int harmonics = 0;  ///< of the orbit's frequency, at least the period; 0: as many as it takes
-  int most_harmonics = 160;  ///< a revolution, if as many as it takes
-  double tolerance = 1e-5;   ///< of the truncation, likewise [length scales]
+  int harmonics = 0;  ///< of the orbit's frequency, at least the period; 0: as the tolerance asks
+  int most_harmonics = 160;  ///< a revolution, where harmonics is 0
+  double tolerance = 1e-5;   ///< of the truncation, where harmonics is 0 [length scales]
   int most_steps = 30;       ///< of Newton's method
   double accurate = 1e-11;   ///< residual of an orbit [length scales]
 
@@ -27,8 +27,8 @@ struct HarmonicOrbit {
   Periodic ports;                 ///< of the displacements at the forces
   double residual = 0.0;          ///< [length scales]
   std::vector<double> residuals;  ///< before every step of Newton's method, and after the last
-  /// A number of harmonics that was tried on the way, and how far the motion moved from the one
-  /// before [length scales].
+  /// A number of harmonics that was tried on the way, and how far the motion moved from that of the
+  /// level before [length scales].
   struct Level {
     int harmonics = 0, steps = 0;
     double change = 0.0;
@@ -53,18 +53,18 @@ struct HarmonicOrbit {
 
 /// Finds a periodic orbit by harmonic balance with Newton's method.
 ///
-/// The number of harmonics is doubled until the motion stays where it is: changes that fall by q a
-/// doubling sum up to q / (1 - q) of the last one, which is the estimate of the truncation. With a
-/// given number, half of it comes before.
+/// The number of harmonics is doubled until the motion no longer changes: changes that fall by q a
+/// doubling sum up to q / (1 - q) of the last one, which is the estimate of the truncation. Before
+/// a given number of harmonics, half that number is tried.
 ///
 /// @param start  Fourier coefficients of a motion near the orbit, n x any odd number
 HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& start,
                                   const HarmonicOptions& options);
 
-/// Shortest period that an orbit has, a divisor of its own [revolutions]; its harmonics say it.
+/// Shortest period of an orbit by its harmonics, a divisor of its own period [revolutions].
 int shortest_period(const HarmonicOrbit& orbit);
 
-/// Largest distance of two motions at forces, whatever their harmonics [m].
+/// Largest difference of two motions at forces, whatever numbers of harmonics these have [m].
 double distance(const Periodic& a, const Periodic& b);
 
 }  // namespace whirl::inline dyn

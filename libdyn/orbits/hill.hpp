@@ -8,12 +8,12 @@ namespace whirl::inline dyn {
 
 /// Floquet exponents and multipliers of an orbit.
 struct HillStability {
-  CVec exponents;    ///< [1/s], of the multipliers; imaginary parts up to the orbit's frequency
+  CVec exponents;    ///< [1/s], of the multipliers; imaginary parts modulo the orbit's frequency
   CVec multipliers;  ///< of the whole period, the largest first
-  /// How many of the 2 n are not among them: those below 1e-4, which are not looked for, or, if
-  /// that was not enough, what Arnoldi's method did not find.
+  /// How many of the 2 n multipliers are missing: those below 1e-4, which are not looked for, and
+  /// those that Arnoldi's method did not find.
   int missing = 0;
-  /// How many are those of modes too fast for the harmonics, from the mean of A(t).
+  /// How many multipliers are those of modes too fast for the harmonics, from the mean of A(t).
   int averaged = 0;
   int harmonics = 0;  ///< of p
   Failure failure;
@@ -28,15 +28,16 @@ struct HillStability {
 ///   y(t) = p(t) e^(lambda t),   p periodic:   (A(t) - d/dt) p = lambda p
 ///
 /// is an eigenproblem for the Fourier coefficients of p, whose eigenvalues repeat as lambda + i k
-/// w. Those of the smallest size, best resolved by so many harmonics, are found by Arnoldi's method
-/// on the inverse, which costs a solution with the Jacobian of harmonic balance each: its size is
-/// that of the ports, not of the states. A strip of width w across the imaginary axis holds each
-/// exponent once; it is laid where no eigenvalue is near its edges. Blocks of two vectors find
-/// exponents that isotropy doubles. Modes faster than seven tenths of the harmonics have no copy in
-/// the strip that these resolve; their exponents are those of the mean of A(t), to first order.
+/// w. The eigenvalues of the smallest size, best resolved by so many harmonics, are found by
+/// Arnoldi's method on the inverse. Each of its vectors costs a solution with the Jacobian of
+/// harmonic balance, whose size is that of the ports, not of the states. A strip of width w across
+/// the imaginary axis holds each exponent once; the strip is laid where no eigenvalue is near its
+/// edges. Blocks of two vectors find exponents that isotropy doubles. Modes faster than seven
+/// tenths of the harmonics have no copy in the strip that the harmonics resolve; exponents of such
+/// modes are those of the mean of A(t), to first order.
 ///
 /// The series of p has the harmonics of the orbit, or more if the modes of the mean of A(t) ask for
-/// it and that is cheap.
+/// that and the cost is low.
 ///
 /// @source [Hill1886]; [VonGrollEwins2001] for harmonic balance; [LazarusThomas2010] for the choice
 ///         of eigenvalues

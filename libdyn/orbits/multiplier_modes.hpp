@@ -10,10 +10,10 @@
 
 namespace whirl::inline dyn {
 
-/// The mode that the direction of a multiplier is most like.
+/// The mode that the eigenvector of a multiplier is most like.
 struct MultiplierMode {
   int mode = 0;      ///< number from 1, as `modes` lists them; 0: there is none
-  double mac = 0.0;  ///< how much: 1 the same, as without contact
+  double mac = 0.0;  ///< how much alike; 1: the same shape, as without contact
 
   static constexpr auto columns() {
     using M = MultiplierMode;
@@ -30,7 +30,7 @@ struct MultiplierMode {
 ///
 ///   MAC = |v* W z|^2 / (v* W v  z* W z),   z = (Omega eta, lambda eta),   W = diag(M, M)
 ///
-/// and likewise with the conjugate z. Contacts mix modes: then the best of them is far from 1.
+/// and the same with the conjugate of z. Contacts mix modes: then the best MAC is far from 1.
 ///
 /// @param orbit  with tangents and multipliers
 /// @return  one for each multiplier

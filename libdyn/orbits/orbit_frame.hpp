@@ -6,7 +6,7 @@
 
 namespace whirl::inline dyn {
 
-/// Where orbits are seen from, to be closed.
+/// The frame in which orbits are closed.
 enum class OrbitFrame { stationary, rotating };
 constexpr auto choices(OrbitFrame) {
   return std::array{Choice<OrbitFrame>{"stationary", OrbitFrame::stationary},

@@ -17,22 +17,22 @@ struct OrbitMeasure {
   /// Work that unbalance and forces do in a revolution: what damping, contacts and films take, less
   /// what friction at the rim brings in from the spin [J].
   double work = 0.0;
-  /// Largest reading of each probe of the model less its smallest, over the period [m]; of an orbit
-  /// that repeats as seen from the rotor over a long time, in which it comes by the probe at all
-  /// its places: twice its largest distance from the axis. As the radii, of ten instants a step of
-  /// the integrator, or eight a harmonic.
+  /// Largest less smallest reading of each probe of the model over the period [m]. An orbit that
+  /// repeats as seen from the rotor brings all of its places by the probe over a long time: the
+  /// reading is twice the largest distance from the axis. Radii and readings are those of ten
+  /// instants a step of the integrator, or eight a harmonic.
   std::vector<double> probe_peak_to_peak;
   Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns)
                  ///< [m]
 };
 
-/// Of the motion from a state at phase 0.
-/// @param revolutions  its period, any positive number
-/// @param frame        in which it repeats
+/// Measures the motion from a state at phase 0.
+/// @param revolutions  period of the motion, any positive number
+/// @param frame        in which the motion repeats
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, const Vec& y,
                            double revolutions, OrbitFrame frame = OrbitFrame::stationary);
 
-/// Of a Fourier series of the reduced displacements.
+/// Measures a Fourier series of the reduced displacements.
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
                            const Periodic& motion);
 
@@ -47,7 +47,7 @@ struct OrbitProbe : ProbeLabel {
   }
 };
 
-/// Readings of the probes of a scene's model, of orbits as above; empty without probes.
+/// Readings of the probes of a scene's model on an orbit, see measure_orbit; empty without probes.
 std::vector<OrbitProbe> probes_along(const Scene& scene, const Vec& y, double revolutions,
                                      OrbitFrame frame = OrbitFrame::stationary);
 std::vector<OrbitProbe> probes_along(const Scene& scene, const Periodic& motion);

@@ -12,7 +12,7 @@
 
 namespace whirl::inline dyn {
 
-/// What becomes of one start.
+/// Result of a flow from one start.
 struct FlowResult {
   Vec end;
   Mat tangent;                         ///< derivative of the end by the start
@@ -25,20 +25,19 @@ enum class WithTangent { no, yes };
 
 /// A map from the states at the start of a revolution to those some revolutions later.
 struct Flow {
-  Vec scale;            ///< of the states: what counts as a change of one in each
+  Vec scale;            ///< of the states: what counts as one in each
   double period = 1.0;  ///< of a revolution [s]
-  /// Moves several starts on by as many revolutions; a passage each.
+  /// Moves several starts on by the same number of revolutions; one result for each start.
   std::function<std::vector<FlowResult>(std::span<const Vec> starts, long revolutions, WithTangent)>
       go;
-  /// Revolutions after which the map is the same again: those of an orbit are a multiple of it, and
-  /// so are those of a segment.
+  /// Revolutions after which the map is the same again. The period of an orbit and the length of a
+  /// segment are multiples of this number.
   long repeats = 1;
 };
 
 struct ShootingOptions {
   int period = 1;           ///< of the orbit [revolutions]
-  int segments = 0;         ///< that it is shot in, a divisor of the period; 0: one a revolution,
-                            ///< or as long as the map takes to repeat
+  int segments = 0;         ///< a divisor of the period; 0: one for every Flow::repeats revolutions
   int most_steps = 12;      ///< of Newton's method
   double accurate = 1e-11;  ///< residual of an orbit [scales]
 
@@ -60,7 +59,7 @@ struct PeriodicOrbit {
 
   bool is_good() const { return !failure; }
   bool is_stable() const;
-  /// log(multiplier) / period [1/s]; the imaginary part is known up to the orbit's frequency.
+  /// log(multiplier) / period [1/s]; the imaginary part is known modulo the orbit's frequency.
   CVec exponents() const;
 };
 
@@ -68,25 +67,25 @@ struct PeriodicOrbit {
 ///
 ///   flow(s_i) - s_(i+1) = 0,  i = 1 ... m,  s_(m+1) = s_1
 ///
-/// Segments are short where the orbit is long, so that errors of an unstable one do not grow over
-/// its whole period. A step that makes the residual much larger is halved. The residual is below
+/// A long orbit has several segments, so that errors of an unstable orbit do not grow over its
+/// whole period. A step that makes the residual much larger is halved. The residual is below
 /// options.accurate, or as small as rounding and events leave it, at most 1e-8.
 ///
-/// @param start  near the orbit; the other segments start on its motion
+/// @param start  near the orbit; the other segments start on the motion from there
 /// @source [StoerBulirsch2002], 7.3.5
 PeriodicOrbit find_orbit(const Flow& flow, const Vec& start, const ShootingOptions& options);
 
-/// The same from the starts of all segments.
+/// Finds a periodic orbit from the starts of all segments.
 PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts, const ShootingOptions& options);
 
-/// Shortest period that an orbit has, a divisor of its own [revolutions]; its segments say it.
+/// Shortest period of an orbit by its segments, a divisor of its own period [revolutions].
 int shortest_period(const PeriodicOrbit& orbit, const Vec& scale);
 
-/// Moves all segments on once; their gaps, tangents, and what contacts did, go into the orbit.
+/// Moves all segments on once; the residual, the tangents and what contacts did go into the orbit.
 /// @return  gaps flow(s_i) - s_(i+1) one after another [scales]; empty if the flow fails
 Vec shoot(const Flow& flow, PeriodicOrbit& orbit, WithTangent wanted = WithTangent::yes);
 
-/// Derivative of the gaps by the starts of the segments: A - I of a single one.
+/// Derivative of the gaps by the starts of the segments: A - I for a single segment.
 Mat shooting_jacobian(std::span<const Mat> tangents);
 
 }  // namespace whirl::inline dyn

@@ -1,5 +1,5 @@
 #pragma once
-/// Coexisting motions: which starts end in the same one.
+/// Coexisting motions: which starts end in the same motion.
 
 #include <cstdint>
 #include <vector>
@@ -19,17 +19,17 @@ struct Ending {
   int period = 0;
   bool is_proven = false;
   std::vector<Regime> regimes;   ///< of the contacts
-  std::vector<double> sections;  ///< states at phase 0, the last ones; NaN beyond them
+  std::vector<double> sections;  ///< last states at phase 0; NaN behind the last one
 };
 
 /// Motions that are the same have one number, from 0 in the order of their first appearance.
 ///
-/// Proven orbits are the same where their sections are, to 1e-5 length scales; others are told
-/// apart by their kind, their period and the regimes of the contacts only: two chaotic attractors
-/// with the same regimes count as one.
+/// Proven orbits are the same where their sections are, to 1e-5 length scales; other motions are
+/// told apart by their kind, their period and the regimes of the contacts only: two chaotic
+/// attractors with the same regimes count as one.
 class AttractorNumbers {
  public:
-  /// @param system  outlives it
+  /// @param system  must outlive these numbers
   explicit AttractorNumbers(const ContactSystem& system) : system_(system) {}
   int number_of(const Ending& ending);
 
@@ -46,8 +46,8 @@ MotionState random_start(const ContactSystem& system, const MotionState& around,
 
 struct BasinsOptions {
   ParameterGrid grid;      ///< of values of the model's start; no axes: random starts
-  std::size_t starts = 1;  ///< of these: the model's own, the others random around it
-  double size = 0.5;       ///< how far they are [length scales]
+  std::size_t starts = 1;  ///< the model's own start, and random ones around it
+  double size = 0.5;       ///< how far random starts are away [length scales]
   std::uint64_t seed = 1;
   ClassifyOptions classify{};  ///< all sections of an orbit are kept, whatever its `sections`
   int threads = 1;
@@ -57,11 +57,11 @@ struct BasinsOptions {
   std::size_t points() const { return is_random() ? starts : grid.points(); }
 };
 
-/// What became of a start.
+/// A start, and what became of it.
 struct BasinsPoint {
   ClassifiedMotion motion{};
-  FullState start{};  ///< empty if there is none
-  /// Reduced states at phase 0, the last ones, one after the other; NaN beyond them.
+  FullState start{};  ///< empty if there is no start
+  /// Last reduced states at phase 0, one after the other; NaN behind the last one.
   std::vector<double> sections{};
 
   static constexpr auto columns() {
@@ -103,7 +103,7 @@ struct BasinsResult {
   long sections = 0;  ///< of a start at most
   PointRows<BasinsPoint> points{};
   std::vector<Basin> basins{};  ///< in the order of their first starts; set at the end
-  /// Per start the number of its basin, or why there is none; empty until all starts are known.
+  /// Per start the number of its basin, or why it has none; empty until all starts are known.
   std::vector<int> attractor{};
 
   /// Numbers of random starts.
@@ -138,7 +138,7 @@ struct FirstStart {
   }
 };
 
-/// A motion that starts ended in, and how many did.
+/// A motion that starts ended in, and the share of these starts.
 struct Attractor : MotionSummary {
   long number = 0;     ///< from 0, in the order of first starts
   double share = 0.0;  ///< of the starts that did not fail
@@ -159,7 +159,8 @@ struct Attractor : MotionSummary {
   }
 };
 
-/// Starts whose motions have not settled, by what their contacts do: that is known of them.
+/// Starts whose motions have not settled, grouped by the regimes of their contacts, which are
+/// known.
 struct UnsettledStarts {
   std::vector<Regime> regimes{};  ///< of the contacts
   double share = 0.0;             ///< of the starts that did not fail
@@ -175,7 +176,7 @@ struct UnsettledStarts {
 struct BasinShares {
   long starts = 0;
   std::vector<Attractor> attractors;       ///< the largest share first
-  std::vector<UnsettledStarts> unsettled;  ///< likewise
+  std::vector<UnsettledStarts> unsettled;  ///< the largest share first
 
   static constexpr auto columns() {
     return ColumnList{column("starts", &BasinShares::starts, "", "starts"),
@@ -191,7 +192,7 @@ BasinShares basin_shares(const BasinsResult& result);
 ///                 they are; empty: none
 /// @return  with fewer points if the monitor stopped it
 /// @throws ModelError      as models
-/// @throws NumericalError  if the first point cannot be computed with, or nothing moves
+/// @throws NumericalError  if the first point cannot be computed, or nothing moves
 BasinsResult basins(const StudyModels& models, const BasinsOptions& options,
                     const Monitor<BasinsResult>& monitor = {}, BasinsResult earlier = {});
 

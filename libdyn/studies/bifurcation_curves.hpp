@@ -14,19 +14,19 @@ namespace whirl::inline dyn {
 
 struct BifurcationCurveOptions {
   ParameterRange along{};   ///< the parameter of the branches
-  ParameterRange across{};  ///< the second one; branches are at its first value
+  ParameterRange across{};  ///< the second parameter; branches are at its first value
   int most_points = 2000;   ///< of a curve
 };
 
 /// The scenes of a plane of two parameters; states are told in the basis of the first one.
 struct PlaneScenes {
   std::shared_ptr<const Scene> first;
-  /// May throw NumericalError where there is none.
+  /// May throw NumericalError where there is no scene.
   std::function<std::shared_ptr<const Scene>(double along, double across)> at;
-  std::shared_ptr<const PlaneSlopes> slopes{};  ///< of them; null: derivatives are differences
+  std::shared_ptr<const PlaneSlopes> slopes{};  ///< of scenes; null: derivatives are differences
 };
 
-/// Their flows.
+/// The flows of scenes over a plane.
 /// @param scenes   must live as long as the flows
 /// @param contact  whose grazings are looked for; empty: any
 FlowPlane flows_of(const PlaneScenes& scenes, const std::string& contact = {});
@@ -34,16 +34,16 @@ FlowPlane flows_of(const PlaneScenes& scenes, const std::string& contact = {});
 /// A curve that goes through a bifurcation of a branch, one way along the second parameter.
 struct BifurcationCurve {
   BifurcationKind kind{};
-  std::string contact;     ///< of a grazing: which
-  int branch_number = 0;   ///< of the branch that it goes through, from 1
+  std::string contact;     ///< that grazes; of a grazing only
+  int branch_number = 0;   ///< of the branch that the curve goes through, from 1
   double direction = 1.0;  ///< of the second parameter
-  Branch branch{};         ///< along the second parameter; the first one is the unknown before it
+  Branch branch{};         ///< along the second parameter; the last unknown is the first parameter
 };
 
 struct BifurcationCurves {
   std::vector<BifurcationCurve> curves{};
 
-  /// Nothing is left to be walked of those that are begun.
+  /// Whether all curves that are begun have ended.
   bool is_complete() const;
 };
 
@@ -52,7 +52,7 @@ double first_value(const ParameterRange& along, const BranchPoint& point);
 
 /// Curves through every fold, period doubling, Neimark-Sacker point and grazing of complete
 /// branches, at their first points.
-/// @param tree  whose bifurcations they are
+/// @param tree  the branches with these bifurcations
 BifurcationCurves begin_curves(const PlaneScenes& scenes, const BranchTree& tree,
                                const BifurcationCurveOptions& options);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Branches of periodic orbits along a parameter, and those that begin at their bifurcations.
+/// Branches of periodic orbits along a parameter, and branches that begin at their bifurcations.
 
 #include <optional>
 #include <string>
@@ -27,8 +27,8 @@ struct BranchTreeOptions {
 /// A branch among those of a tree.
 struct TracedBranch {
   Branch branch{};
-  int parent = 0;      ///< number of the branch that it begins on, from 1; 0: none
-  int generation = 0;  ///< how many branches it is away from the first
+  int parent = 0;      ///< number of the branch on which this one begins, from 1; 0: none
+  int generation = 0;  ///< how many branches away from the first
   double direction = 1.0;
   std::vector<OrbitMeasure> measures{};  ///< per point
   std::vector<Vec> starts{};  ///< per point, state at phase 0, in the basis of the first value
@@ -39,12 +39,12 @@ struct BranchLayout {
   Eigen::Index states = 0;              ///< of a revolution, reduced
   Vec scale{};                          ///< of the states
   int harmonics = 0;                    ///< of harmonic balance; 0: shooting
-  bool is_rotating = false;             ///< closed as seen from the rotor, after any period
+  bool is_rotating = false;             ///< orbits close as seen from the rotor, after any period
   std::vector<std::string> contacts{};  ///< names
-  ProbeLabels probes{};                 ///< those of the model
+  ProbeLabels probes{};                 ///< of the model
 
-  /// Of a point of a branch [revolutions].
-  /// @param of_branch  the same of the branch, where that is fixed
+  /// Period of a point of a branch [revolutions].
+  /// @param of_branch  period of the branch, where that is fixed
   double period(int of_branch, const BranchPoint& point) const {
     return is_rotating ? point.z(states) : of_branch;
   }
@@ -54,7 +54,7 @@ struct BranchTree {
   BranchLayout layout{};
   std::vector<TracedBranch> branches{};
 
-  /// Nothing is left to be walked.
+  /// Whether nothing is left to be walked.
   bool is_complete() const;
   long points() const;
 };
@@ -63,7 +63,7 @@ struct BranchTree {
 /// @param first  the scene at the first value of the parameter
 BranchTree empty_tree(const Scene& first, const BranchTreeOptions& options);
 
-/// The first branch, or two of them both ways, from an orbit near a start.
+/// The first branch, or one branch each way, from an orbit near a start.
 /// @throws NumericalError  if there is no orbit
 BranchTree begin_tree(const ParameterScenes& scenes, const Vec& start,
                       const BranchTreeOptions& options);
@@ -74,20 +74,21 @@ WalkNews walk_branch(const ParameterScenes& scenes, const BranchTreeOptions& opt
 
 /// A tree that grows by stretches of its branches, several of them at a time.
 ///
-/// It becomes what it is where one branch is walked after the other, whichever is done first: those
-/// that begin on a branch come behind the others once it and all before it have ended, and then it
-/// is seen which branch was walked twice. A first branch that closes needs no walk the other way.
+/// The tree becomes the same as if one branch were walked after the other, whichever ends first.
+/// Branches that begin on a branch are added behind all others, once that branch and all before it
+/// have ended; a branch that would be walked twice is dropped at the same time. A first branch that
+/// closes needs no walk the other way.
 class TreeGrowth {
  public:
   struct OpenWalk {
-    std::size_t number = 0;  ///< that stays the walk's, whatever becomes of the tree
+    std::size_t number = 0;  ///< that the walk keeps, whatever becomes of the tree
     BegunWalk begun{};
   };
 
-  /// @param tree  at least begun; what it has is gone on with, bit by bit
+  /// @param tree  at least begun; its walks go on, bit by bit
   TreeGrowth(const ParameterScenes& scenes, const BranchTreeOptions& options, BranchTree& tree);
 
-  /// A walk to go on with; nothing: all that can be walked are away, or have ended.
+  /// A walk to go on with; nothing: all walks are away, or have ended.
   std::optional<OpenWalk> next();
   /// Takes in what a stretch of a walk has found.
   void keep(std::size_t number, WalkNews news);
@@ -101,13 +102,13 @@ class TreeGrowth {
 
   void number_walks();
   bool has_ended(std::size_t branch) const;
-  /// What the end of a branch means for the others.
+  /// Adds and drops branches where a branch has ended.
   void branch_out(std::size_t number);
 
   const ParameterScenes& scenes_;
   const BranchTreeOptions& options_;
   BranchTree& tree_;
-  std::vector<Walk> walks_;  ///< as branches
+  std::vector<Walk> walks_;  ///< in the order of the branches
   std::size_t numbers_ = 0;  ///< given to walks
   std::size_t settled_ = 0;  ///< branches that have ended, with all before them, and branched out
 };

@@ -23,7 +23,7 @@ struct ClassificationResult {
   /// Estimates from the first revolutions alone, exponents x estimates [1/s]; empty: none.
   Mat settling() const { return of.path.exponents / revolution; }
 
-  /// Of each contact, the p of p/n.
+  /// The p of p/n of each contact.
   std::vector<double> impacts_of_contacts() const {
     std::vector<double> all;
     for (const ContactMeasure& m : of.contacts) all.push_back(m.impacts);

@@ -16,22 +16,22 @@ namespace whirl::inline dyn {
 
 /// A motion at a point of a study, as it was classified.
 struct ClassifiedMotion {
-  std::optional<MotionKind> kind{};  ///< none: it failed, and nothing but `failure` is known
+  std::optional<MotionKind> kind{};  ///< nothing: the motion failed, and only `failure` is known
   int period = 0;           ///< of a periodic motion [revolutions]; 0: not periodic, or longer
   bool is_proven = false;   ///< the attracting orbit was found
-  long transient = 0;       ///< revolutions until this was known, or all of the transient
+  long transient = 0;       ///< revolutions until the kind was known, or all of the transient
   long revolutions = 0;     ///< that contacts were measured over
   double resolution = 0.0;  ///< of the largest exponent [1/revolution], see Classification
   double section_dimension = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> exponents{};  ///< Lyapunov exponents, descending [1/revolution]
   std::vector<ContactDoing> contacts{};
   long settles_after = 0;  ///< see Classification
-  Failure failure{};       ///< why it failed; empty if it was read from a file
+  Failure failure{};       ///< why the motion failed; empty if it was read from a file
 
   bool has_failed() const { return !kind; }
-  /// The strongest of all contacts.
+  /// The strongest regime of all contacts.
   Regime regime() const;
-  /// Of all contacts together; NaN if it failed.
+  /// Impacts of all contacts together; NaN if the motion failed.
   double impacts_per_rev() const;
   /// The largest exponent; NaN if there is none.
   double largest_exponent() const;
@@ -61,7 +61,7 @@ struct ClassifiedMotion {
   }
 };
 
-/// A motion in short; of one that failed, or is not known, nothing.
+/// A motion in short; all is empty of a motion that failed.
 struct MotionSummary {
   std::optional<MotionKind> motion;
   std::optional<int> period;  ///< of a periodic motion [revolutions]
@@ -79,13 +79,13 @@ struct MotionSummary {
 };
 MotionSummary summary_of(const ClassifiedMotion& motion);
 
-/// What there is to keep of a motion.
+/// What is kept of a motion.
 ClassifiedMotion classified(const Classification& found);
 
 /// What all motions of a study have in common.
 struct StudySystem {
   std::vector<std::string> contacts{};  ///< names
-  Eigen::Index states = 0;              ///< coordinates and velocities; as many exponents
+  Eigen::Index states = 0;              ///< coordinates and velocities; there are as many exponents
   Eigen::Index dofs = 0;                ///< of all points, see FullState
 };
 StudySystem study_system(const Scene& scene);

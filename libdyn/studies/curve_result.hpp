@@ -17,7 +17,7 @@ struct CurveRow : EndTexts {
   BifurcationKind kind{};
   std::string contact;  ///< of a grazing
   int period = 1;       ///< of the orbits [revolutions]
-  int branch = 1;       ///< number of the branch that it goes through
+  int branch = 1;       ///< number of the branch that the curve goes through
   Mat points{};         ///< values of both parameters, a row each [SI]
 
   std::optional<std::string> grazing_contact() const {

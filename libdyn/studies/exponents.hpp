@@ -19,13 +19,13 @@ struct ExponentEstimate {
 /// Means of the growth per revolution, without the first quarter of the revolutions, in which
 /// tangents turn to where they grow most.
 ///
-///   resolution = 2 zero + 3.5 s / sqrt(16),   s: standard deviation of the means of 16 batches
+///   resolution = 2 zero + 2.5 s / sqrt(16),   s: standard deviation of the means of 16 batches
 ///
-/// The first part is what is bounded, the second one chance; the factors are measured:
+/// The first term is for what is bounded, the second one for chance; the factors are measured:
 /// bench/exponent_coverage.cpp, docs/validation.md.
 ///
-/// @param growths  logarithms of what orthogonal tangents have grown by, a row for each, a column
-///                 per revolution, at least one of each
+/// @param growths  logarithms of what orthogonal tangents have grown by, a row for each tangent, a
+///                 column per revolution, at least one of each
 /// @source [Benettin1980] for the means
 ExponentEstimate estimate_exponents(const Mat& growths);
 
@@ -35,7 +35,7 @@ struct ExponentPath {
   Mat exponents;                    ///< descending, a column per estimate [1/revolution]
 };
 
-/// At so many numbers of revolutions at most, evenly spread up to all of them.
+/// The path at so many numbers of revolutions at most, evenly spread up to all revolutions.
 ExponentPath exponent_path(const Mat& growths, Eigen::Index most);
 
 }  // namespace whirl::inline dyn

@@ -27,19 +27,19 @@ constexpr auto choices(OrbitMethod) {
                     Choice<OrbitMethod>{"harmonic-balance", OrbitMethod::harmonic_balance}};
 }
 
-/// Of an orbit in the stationary frame.
+/// Options of the search for an orbit in the stationary frame.
 struct OrbitOptions {
   OrbitMethod method = OrbitMethod::shooting;
   int period = 1;            ///< [revolutions]
-  int harmonics = 0;         ///< of harmonic balance; 0: as many as it takes
+  int harmonics = 0;         ///< of harmonic balance; 0: as the tolerance asks
   bool is_verified = false;  ///< an orbit of harmonic balance is compared with that of shooting
 };
 
 /// How far an orbit of harmonic balance is from the one that shooting finds from the same states.
 struct ShootingGap {
-  Failure failure;  ///< of shooting; where there is none, all else is known
+  Failure failure;  ///< of shooting; without a failure, all else is known
   std::optional<double> displacement{}, velocity{};  ///< where revolutions start [length scales]
-  std::optional<double> multiplier{};                ///< of each, from the nearest of shooting
+  std::optional<double> multiplier{};                ///< largest, from the nearest of shooting
   std::optional<double> residual{};                  ///< of shooting [length scales]
 
   static constexpr auto columns() {
@@ -53,11 +53,11 @@ struct ShootingGap {
   }
 };
 
-/// What harmonic balance says of an orbit beside; in group /orbit its amplitudes.
+/// What harmonic balance adds to an orbit; the amplitudes are in group /orbit.
 struct OrbitSeries {
   int harmonics = 0;        ///< of the orbit's frequency
-  double truncation = 0.0;  ///< what those left out change [length scales]; NaN: not known
-  std::vector<HarmonicOrbit::Level> levels{};  ///< on the way
+  double truncation = 0.0;  ///< what harmonics left out change [length scales]; NaN: not known
+  std::vector<HarmonicOrbit::Level> levels{};  ///< tried on the way
   std::optional<int> missing_multipliers{};    ///< too small to be told; nothing: no orbit
   std::optional<int> averaged_multipliers{};   ///< of modes too fast for the harmonics
   Failure stability_failure{};
@@ -101,7 +101,7 @@ struct FoundOrbit {
   std::vector<MultiplierMode> modes{};  ///< of the multipliers; empty: not told
   bool is_stable = false;
   std::vector<ContactMeasure> contacts{};  ///< shares of the period
-  std::vector<OrbitProbe> probes{};        ///< those of the model; empty: there is no orbit
+  std::vector<OrbitProbe> probes{};        ///< of the model; empty: there is no orbit
   Failure failure{};
   std::optional<OrbitSeries> series{};  ///< of harmonic balance
 
@@ -132,7 +132,7 @@ struct FoundOrbit {
 /// An orbit that repeats as seen from the rotor.
 struct RotatingOrbit : AutonomousOrbit {
   double revolutions = 0.0;          ///< of its period
-  std::vector<OrbitProbe> probes{};  ///< those of the model; empty: there is no orbit
+  std::vector<OrbitProbe> probes{};  ///< of the model; empty: there is no orbit
 
   long steps() const;                     ///< of Newton's method
   std::optional<bool> stability() const;  ///< nothing: there is no orbit
@@ -155,16 +155,17 @@ struct RotatingOrbit : AutonomousOrbit {
 /// The orbit near a state at phase 0, with its stability.
 FoundOrbit find_orbit_near(const Scene& scene, const Vec& start, const OrbitOptions& options);
 
-/// The same near where a motion has come; if that did not get there, why there is none.
+/// The orbit near the end of a transient; if the transient failed or was stopped, why there is no
+/// orbit.
 FoundOrbit find_orbit_after(const Trajectory& transient, const Scene& scene,
                             const OrbitOptions& options);
 
 /// Time after which a motion from a start comes back as seen from the rotor [s].
-/// @throws NumericalError  if it does not
+/// @throws NumericalError  if the motion does not come back
 double guessed_period(const Scene& scene, const Vec& start);
 
-/// The orbit near a start that repeats as seen from the rotor, after the shortest period it has.
-/// @param flow  of the scene as seen from there
+/// The orbit near a start that repeats as seen from the rotor, with its shortest period.
+/// @param flow  of the scene as seen from the rotor
 /// @throws NumericalError  as guessed_period
 RotatingOrbit find_rotating_orbit(const AutonomousFlow& flow, const Scene& scene, const Vec& start);
 

@@ -37,7 +37,7 @@ struct MapResult {
 ///                 they are; empty: none
 /// @return  with fewer points if the monitor stopped it
 /// @throws ModelError      as models
-/// @throws NumericalError  if the first point cannot be computed with, or nothing moves
+/// @throws NumericalError  if the first point cannot be computed, or nothing moves
 MapResult map(const StudyModels& models, const MapOptions& options,
               const Monitor<MapResult>& monitor = {}, MapResult earlier = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What long work tells, asks and keeps while it goes on.
+/// What long work tells and asks its caller, and saves, while it goes on.
 
 #include <algorithm>
 #include <chrono>
@@ -22,23 +22,23 @@ struct Monitor {
   /// exception leaves.
   std::function<void(const Result&)> save{};
   /// Of a study of many points, in place of saving now and then: called in the caller's thread with
-  /// the result so far and the points that are new since the last call; before the last saving,
-  /// too.
+  /// the result so far and the points that are new since the last call; also called before the last
+  /// saving.
   std::function<void(const Result&, std::span<const std::size_t> points)> add{};
 
-  /// Processes that share the work, this one among them; null: it is alone. They must be called
-  /// with the same work; studies of many points share it, see run_points.
+  /// Processes that share the work, this one among them; null: this process is alone. All processes
+  /// must be called with the same work; studies of many points share it, see run_points.
   const Ranks* ranks = nullptr;
 
   bool stops() const { return (is_stopped && is_stopped()) || (ranks && ranks->is_told_to_stop()); }
-  /// The same for work that must not know the monitor; empty: it never stops.
+  /// What stops() says, for work that must not know the monitor; empty: the work never stops.
   std::function<bool()> stop_asked() const {
     if (!ranks) return is_stopped;
     return [is_stopped = is_stopped, told = ranks->told_to_stop] {
       return *told || (is_stopped && is_stopped());
     };
   }
-  /// The same of work whose result is another one, and is saved otherwise or not at all.
+  /// The monitor of work whose result is another one, and is saved otherwise or not at all.
   template <class Other>
   Monitor<Other> of() const {
     return {.progress = progress, .is_stopped = is_stopped, .ranks = ranks};
@@ -53,7 +53,7 @@ class SaveTimer {
  public:
   bool is_due() const { return clock::now() >= next_; }
 
-  /// Saves by calling f, and takes note of how long it took.
+  /// Saves by calling f, and takes note of how long f took.
   template <class F>
   void save(const F& f) {
     const auto begin = clock::now();

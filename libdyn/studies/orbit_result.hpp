@@ -39,7 +39,7 @@ struct OrbitResult {
   }
 };
 OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit);
-/// Of an orbit that repeats as seen from the rotor.
+/// The result of an orbit that repeats as seen from the rotor.
 OrbitResult orbit_result(const Scene& scene, const AutonomousOrbit& cycle);
 
 }  // namespace whirl::inline dyn

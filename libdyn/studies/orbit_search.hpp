@@ -16,7 +16,7 @@ namespace whirl::inline dyn {
 struct OrbitSearchOptions {
   int period = 1;          ///< of the orbits [revolutions]
   long starts = 1;         ///< that are tried
-  long discard = 10;       ///< revolutions that bring a start near something
+  long discard = 10;       ///< revolutions from a start to where Newton's method begins
   double size = 0.5;       ///< how far starts are away: see random_start
   std::uint64_t seed = 1;  ///< of the starts
   int threads = 1;         ///< of this process that do the work; 0: the calling one
@@ -27,7 +27,7 @@ struct SearchedOrbit {
   PeriodicOrbit orbit{};    ///< without its tangents
   int shortest_period = 1;  ///< [revolutions]
   long starts = 1;
-  std::vector<OrbitProbe> probes{};  ///< those of the model
+  std::vector<OrbitProbe> probes{};  ///< of the model
 
   bool is_stable() const { return orbit.is_stable(); }
   double impacts() const;  ///< of all contacts in the period of the search
@@ -64,10 +64,10 @@ struct OrbitSearch {
 
 /// Newton's method from random starts, each after some revolutions. Orbits are the same where their
 /// states are, begun at any revolution of their period. Threads and processes share the starts;
-/// what is found does not depend on them: a search that is stopped has what all of its first starts
-/// lead to.
-/// @param around   what the starts are near
-/// @param monitor  told the starts; nothing is saved
+/// what is found does not depend on threads and processes: a search that is stopped has what all of
+/// its first starts lead to.
+/// @param around   state that the starts are near
+/// @param monitor  told the starts that are done; nothing is saved
 OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
                           const OrbitSearchOptions& options, const Monitor<OrbitSearch>& monitor);
 

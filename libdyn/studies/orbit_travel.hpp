@@ -1,5 +1,5 @@
 #pragma once
-/// What of orbits and branches goes from one process to another, and back: see
+/// Orbits and branches as bytes that go from one process to another, and back: see
 /// libbase/structs/travel.hpp.
 
 #include "libdyn/branches/branch.hpp"

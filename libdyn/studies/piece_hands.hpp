@@ -20,11 +20,12 @@
 
 namespace whirl::inline dyn {
 
-/// Between two letters that say nothing but that a process is alive.
+/// Time between two letters that say nothing but that a process is alive.
 constexpr std::chrono::seconds alive_every{5};
 
-/// Threads of this process and, where it leads others, of these. Each thread is given the piece
-/// that it computes and one more that waits, so that none is idle while letters are on their way.
+/// The threads of this process and of the processes that it leads, if any. Each thread is given the
+/// piece that it computes and one more piece that waits, so that no thread is idle while letters
+/// are on their way.
 template <class Row, class Given>
 class PieceHands {
  public:
@@ -38,19 +39,19 @@ class PieceHands {
     if (ranks_) others_.resize(static_cast<std::size_t>(ranks_->count) - 1);
     read_letters();
   }
-  /// What is not done is not waited for in other processes.
+  /// Does not wait for what other processes have not done.
   ~PieceHands() { stop(); }
   PieceHands(const PieceHands&) = delete;
   PieceHands& operator=(const PieceHands&) = delete;
 
-  /// Of all processes; of those that have not begun, as many as of this one.
+  /// Threads of all processes; a process that has not begun counts as many as this one.
   int threads() const {
     int all = threads_;
     for (const Other& other : others_) all += other.threads > 0 ? other.threads : work_.threads;
     return all;
   }
 
-  /// Whether every thread has a piece, and another one waits for it.
+  /// Whether every thread has a piece, and another piece waits for it.
   bool is_full() const {
     for (const Other& other : others_) {
       if (other.has_room()) return false;
@@ -60,7 +61,8 @@ class PieceHands {
   bool has_open() const { return own_.has_open() || has_away() || !arrived_.empty(); }
   bool has_away() const { return !away_.empty(); }
 
-  /// Gives a piece to where most threads wait for one; to this process, if all are alike.
+  /// Gives a piece to the process with the fewest open pieces for each of its threads; to this one,
+  /// if all are alike.
   void add(const Piece& piece, Given given) {
     if (const int rank = freest(); rank > 0) {
       Other& other = others_[static_cast<std::size_t>(rank) - 1];
@@ -88,7 +90,7 @@ class PieceHands {
     }
     return take_own({});
   }
-  /// The same; waits a little for one to come.
+  /// A piece that is done; waits a little for one to come.
   std::optional<FinishedPiece<Row>> wait() {
     auto finished = take();
     if (finished) return finished;
@@ -109,8 +111,8 @@ class PieceHands {
 
   /// Another process.
   struct Other {
-    int threads = 0;       ///< 0: it has not begun
-    std::size_t open = 0;  ///< pieces that it was given and has not answered
+    int threads = 0;       ///< 0: the process has not begun
+    std::size_t open = 0;  ///< pieces that the process was given and has not answered
     bool is_told = false;  ///< to stop
     Silence silence{};
 
@@ -123,8 +125,8 @@ class PieceHands {
     return finished;
   }
 
-  /// The rank with the fewest open pieces for each of its threads; this process, where it has none
-  /// beside the calling one, only if all others are full.
+  /// The rank with the fewest open pieces for each of its threads; this process, if it has no
+  /// thread beside the calling one, only if all others are full.
   int freest() const {
     const auto load = [](std::size_t open, int threads) {
       return static_cast<double>(open) / static_cast<double>(threads);
@@ -198,11 +200,11 @@ class PieceHands {
   std::size_t own_open_ = 0;
   std::vector<Other> others_;            ///< from rank 1
   std::map<std::uint64_t, Piece> away_;  ///< in other processes, by number
-  std::uint64_t last_ = 0;               ///< number of a piece
+  std::uint64_t last_ = 0;               ///< number of the last piece given away
   std::deque<FinishedPiece<Row>> arrived_;
   Patience patience_;
   clock::time_point next_alive_ = clock::now() + alive_every;
-  WorkQueue<FinishedPiece<Row>> own_{threads_};  // the last: its threads use the others
+  WorkQueue<FinishedPiece<Row>> own_{threads_};  // the last member: its threads use the others
 };
 
 /// The answer to a letter with a piece.
@@ -224,9 +226,9 @@ Letter answer_piece(const PointWork<Row, Given>& work, const std::string& bytes,
   }
 }
 
-/// Computes pieces that the leader sends, in the threads of this process, for as long as it leads.
-/// @throws WorkIsDone  when it has ended
-/// @throws LostRank    if nothing is heard of it
+/// Computes pieces that the leader sends, in the threads of this process, until the leader ends.
+/// @throws WorkIsDone  when the leader has ended
+/// @throws LostRank    if nothing is heard of the leader
 template <class Row, class Given>
 [[noreturn]] void serve(const PointWork<Row, Given>& work, const Ranks& ranks,
                         const std::function<bool()>& stops) {
@@ -235,7 +237,7 @@ template <class Row, class Given>
   WorkQueue<Letter> queue(threads);
   ranks.send({0, LetterKind::ready, packed(threads)});
   Patience patience;
-  std::optional<Silence> silence;  // from its first letter on: it may have much to do before
+  std::optional<Silence> silence;  // from the leader's first letter on, before which it may be busy
   bool has_stopped = false;
   const auto send = [&](Letter letter) {
     ranks.send(std::move(letter));

@@ -23,23 +23,23 @@ struct OpenPiece {
 /// Where pieces come from, and what becomes of them; all is called in the calling thread.
 template <class Row, class Given>
 struct PieceFlow {
-  /// The next piece for so many threads. Nothing: there is none before another one is kept, or none
-  /// at all.
+  /// The next piece for so many threads. Nothing: there is no piece before another one is kept, or
+  /// no piece at all.
   std::function<std::optional<OpenPiece<Given>>(int threads)> next{};
   /// Takes in a piece that is whole; pieces come in any order.
   std::function<void(FinishedPiece<Row>)> keep{};
-  /// Saves what was taken in, if that is not saved: at the end, before an exception leaves, and
-  /// before it is waited for processes that were told to stop.
+  /// Saves what was taken in and is not saved yet: at the end, before an exception leaves, and
+  /// before the wait for processes that were told to stop.
   std::function<void()> save{};
 };
 
-/// Computes pieces until there are no more. What is begun when it is stopped is waited for.
+/// Computes pieces until there are no more. After a stop, pieces that are begun are waited for.
 ///
 /// Where the monitor has ranks, that is processes that all come here with the same work, the leader
-/// shares out pieces and alone returns; the others serve it to its end.
+/// shares out pieces and alone returns; the other processes serve the leader to its end.
 ///
 /// @throws WorkIsDone  in ranks that do not lead
-/// @throws LostRank    where one does not answer any more; what is done is saved
+/// @throws LostRank    where a process does not answer any more; what is done is saved
 template <class Row, class Given, class Result>
 void run_pieces(const PointWork<Row, Given>& work, const PieceFlow<Row, Given>& flow,
                 const Monitor<Result>& monitor) {
@@ -52,7 +52,7 @@ void run_pieces(const PointWork<Row, Given>& work, const PieceFlow<Row, Given>& 
     PieceHands<Row, Given> hands(work, monitor.ranks, stops);
     while (!monitor.stops()) {
       if (auto open = flow.next(hands.threads())) {
-        if (monitor.stops()) break;  // what it was given may have been stopped half-way
+        if (monitor.stops()) break;  // what the piece is given may have been stopped half-way
         hands.add(open->piece, std::move(open->given));
         while (auto finished = hands.take()) keep(std::move(finished));
         while (hands.is_full() && !monitor.stops()) keep(hands.wait());

@@ -6,15 +6,15 @@
 
 namespace whirl::inline dyn {
 
-/// Sizes of the pieces that points are cut into, from what they cost so far.
+/// Sizes of the pieces that points are cut into, from what points cost so far.
 ///
 /// The first piece of each thread is small, so that there is something to keep soon, whatever a
-/// point costs. Later ones take some seconds, or have as many points as fill the lanes of a batch
-/// well. None takes more than half a thread's share of what is left, down to some lanes: one point
-/// may cost thirty times as much as another, and all threads are to end at about the same time. The
-/// last ones, and few points from the start, are shared out evenly. Pieces of less would cost more
-/// than they save: at the end of each lanes stand empty, and a step of a few takes as long as one
-/// of all.
+/// point costs. Later pieces take some seconds, or have as many points as fill the lanes of a batch
+/// well. No piece takes more than half a thread's share of what is left, down to some lanes: one
+/// point may cost thirty times as much as another, and all threads are to end at about the same
+/// time. The last points, or a few points from the start, are shared out evenly. Smaller pieces
+/// would cost more than they save: at the end of each piece lanes stand empty, and a step of a few
+/// lanes takes as long as one of all.
 class PieceSizes {
  public:
   /// @param most     points of a piece at most
@@ -46,7 +46,7 @@ class PieceSizes {
   }
 
  private:
-  static constexpr std::size_t second = 32;  ///< points, while none is known to cost what
+  static constexpr std::size_t second = 32;  ///< points, while the cost of a point is not known
   static constexpr std::size_t full = 64;    ///< points that leave few lanes empty at the end
   static constexpr std::size_t least = 32;   ///< points that fill lanes twice or more
   static constexpr double lasting = 4.0;     ///< [s], well below the ten until a first result
@@ -66,7 +66,7 @@ class PieceSizes {
 
   std::size_t most_, threads_, first_;
   std::size_t given_ = 0;  ///< pieces
-  std::size_t last_ = 0;   ///< points of the very last pieces; 0: it is not time for these
+  std::size_t last_ = 0;   ///< points of each of the last pieces; 0: more is left
   double cost_ = 0.0;      ///< of a point [s]; 0: not known yet
 };
 

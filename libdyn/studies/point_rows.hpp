@@ -14,9 +14,9 @@
 
 namespace whirl::inline dyn {
 
-/// Rows of a study, one per point; none where a point is not computed. They are kept as the
-/// bytes of their `travel`, and made again where they are asked for: a row is a value, whose parts
-/// are gone with it.
+/// Rows of a study, one per point; none where a point is not computed. Rows are kept as the bytes
+/// of their `travel`, and made again where asked for: a row is a value, and references to its parts
+/// end with it.
 template <class Row>
 class PointRows {
  public:
@@ -40,7 +40,7 @@ class PointRows {
     unpack(rows_.get(point, buffer), *row);
     return row;
   }
-  /// A row that is there as `packed` makes it, bit by bit.
+  /// The bytes of a row that is there, as `packed` makes them.
   std::string bytes(std::size_t point) const {
     std::string buffer;
     return std::string(rows_.get(point, buffer));

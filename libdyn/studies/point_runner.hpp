@@ -1,5 +1,5 @@
 #pragma once
-/// Points of a study, computed piece by piece in threads, and in processes that share it.
+/// Points of a study, computed piece by piece in threads, and in processes that share the study.
 
 #include <algorithm>
 #include <cstddef>
@@ -69,7 +69,7 @@ class Savings {
     if (timer_.is_due()) timer_.save([&] { monitor_.add ? add() : save(); });
   }
 
-  /// All that is done so far, once.
+  /// Saves all that is done so far, if that is not saved.
   void save() {
     if (is_saved_) return;
     if (monitor_.add) add();
@@ -90,8 +90,8 @@ class Savings {
   bool is_saved_ = false;
 };
 
-/// Computes the points of a result that are not done, as run_pieces. Pieces that are stopped leave
-/// theirs so.
+/// Computes the points of a result that are not done, as run_pieces. Points of pieces that are
+/// stopped stay undone.
 /// @param result  its `points` are PointRows<Row>
 template <class Row, class Given, class Result>
 void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor<Result>& monitor) {

@@ -1,5 +1,5 @@
 #pragma once
-/// How a study becomes pieces of work, and what comes of one.
+/// How a study becomes pieces of work, and the result of a piece.
 
 #include <chrono>
 #include <cstddef>
@@ -21,20 +21,20 @@ void travel(Bytes&, Is<NothingGiven> auto&) {}
 template <class Row, class Given = NothingGiven>
 struct PointWork {
   using Piece = std::vector<std::size_t>;
-  /// Points that are computed together, one piece after the other; none: any points may be, in
-  /// their order, and pieces are cut as time and threads ask for.
+  /// Points that are computed together, one piece after the other; empty: any points may go
+  /// together, in their order, and pieces are cut as time and threads ask.
   std::vector<Piece> pieces{};
-  std::size_t most_together = 0;  ///< points of such a piece at most
+  std::size_t most_together = 0;  ///< points of a piece that is cut, at most
   Stripe stripe{};                ///< the points that are computed, where pieces are cut
-  /// That do the work; 0: the calling one. Where pieces are prepared, one of them does that.
+  /// Threads that do the work; 0: the calling one. Where pieces are prepared, one thread does that.
   int threads = 1;
-  /// Makes what a piece is given, in order and in the calling thread; none for pieces that are
-  /// done. May be empty.
+  /// Makes what a piece is given, in order and in the calling thread; not called for pieces that
+  /// are done. May be empty.
   std::function<Given(const Piece&)> prepare{};
-  /// The rows of a piece, in any thread of any process: the same for the same points and what they
-  /// are given, bit by bit.
+  /// The rows of a piece, in any thread of any process: the same rows for the same points and what
+  /// the piece is given, bit by bit.
   std::function<std::vector<Row>(const Piece&, Given&)> compute{};
-  /// What a piece has when it is stopped is worth keeping, too.
+  /// Whether rows of a piece that is stopped are worth keeping, too.
   bool keeps_parts = false;
 
   /// Threads beside the one that prepares.
@@ -47,12 +47,12 @@ template <class Row>
 struct FinishedPiece {
   std::vector<std::size_t> piece;
   std::vector<Row> rows;
-  bool is_whole = true;  ///< false: it was stopped, and its rows are worth nothing
+  bool is_whole = true;  ///< false: the piece was stopped, and its rows are worth nothing
   double seconds = 0.0;  ///< of one thread
 };
 
 /// Computes a piece in the calling thread.
-/// @param stops  whether it was stopped meanwhile
+/// @param stops  whether the piece was stopped meanwhile
 template <class Row, class Given>
 FinishedPiece<Row> finish_piece(const PointWork<Row, Given>& work,
                                 const std::vector<std::size_t>& piece, Given& given,

@@ -1,6 +1,6 @@
 #pragma once
-/// What is seen of a classified motion: sections and spectra at stations, how far they move, and
-/// where contacts touch.
+/// What is seen of a classified motion: sections and spectra at stations, how far stations move,
+/// and where contacts touch.
 
 #include <tuple>
 #include <vector>
@@ -16,10 +16,10 @@ namespace whirl::inline dyn {
 
 struct PortraitOptions {
   std::vector<NamedPoint> stations{};
-  long spectrum_revolutions = 32;  ///< that spectra are taken from; 0: sections only
+  long spectrum_revolutions = 32;  ///< whose spectra are taken; 0: sections only
 };
 
-/// What is not known is NaN.
+/// Sections and spectra of a motion; what is not known is NaN.
 struct Portrait {
   Mat poincare_x, poincare_y;  ///< at phase 0, the last sections: stations x sections [m]
   Vec max_radius;              ///< largest distance from the axis, per station [m]
@@ -28,21 +28,21 @@ struct Portrait {
   Mat contact_angle;  ///< share of the time in touch: contacts x portrait_sectors
   /// What the probes of the model read at phase 0, the last sections: probes x sections [m].
   Mat probe_sections;
-  Vec probe_mean, probe_peak_to_peak;  ///< of what they read, likewise [m]
+  Vec probe_mean, probe_peak_to_peak;  ///< of the readings of each probe [m]
   /// Peak to peak of what turns with an order of the speed: probes x probe_orders [m].
   Mat probe_spectrum;
 };
 
 /// Orders of a portrait's spectra: signed frequency over speed, forward > 0.
 Vec portrait_orders(long spectrum_revolutions);
-/// Orders of the spectra of its probes, from 0.
+/// Orders of the spectra of probes, from 0.
 Vec probe_orders(long spectrum_revolutions);
 /// Middles of the sectors around a stator, from x to y [rad].
 Vec portrait_sectors();
 
 /// Looks at a motion, from a state on it.
 ///
-/// @param found      with its sections, the last ones
+/// @param found      with its last sections
 /// @param sections   of the portrait; NaN beyond those that were found
 /// @param tolerance  of a step
 Portrait portrait_of(const Scene& scene, const Classification& found, long sections,

@@ -1,5 +1,5 @@
 #pragma once
-/// Internal resonances of a rotor with what its contacts make of them.
+/// Internal resonances of a rotor, with their modes in the contacts and bouncing motions nearby.
 
 #include <cstdint>
 #include <optional>
@@ -18,12 +18,12 @@ struct ResonanceOptions {
   std::vector<double> speeds;  ///< ascending [rad/s]
   int modes = 4;
   int largest = 4;        ///< of p and q
-  bool confirms = false;  ///< look for bouncing motions near each of them
+  bool confirms = false;  ///< look for bouncing motions near each resonance
   BouncingOptions search{};
-  int threads = 1;  ///< of this process that look for them; 0: the calling one
+  int threads = 1;  ///< of this process that look for bouncing motions; 0: the calling one
 };
 
-/// Orbits of both modes in a contact, by their largest on the rotor.
+/// Orbits of both modes in a contact, over the largest orbit of each mode on the rotor.
 struct ContactOrbits {
   std::string name;
   double fast = 0.0, slow = 0.0;  ///< major semi-axes; NaN where no mode is near
@@ -35,14 +35,14 @@ struct ContactOrbits {
   }
 };
 
-/// A resonance, and what the model makes of it.
+/// A resonance, its modes in the contacts, and a bouncing motion near it.
 struct ResonancePlace : InternalResonance {
   std::vector<ContactOrbits> contacts;
   std::optional<Bouncing> bouncing;
-  bool is_confirmed = false;  ///< it was looked for, to the end
+  bool is_confirmed = false;  ///< a bouncing motion was looked for, to the end
 
   double bouncing_speed() const;   ///< NaN: none was found, or looked for [rad/s]
-  double bouncing_period() const;  ///< likewise [revolutions]
+  double bouncing_period() const;  ///< NaN: none was found, or looked for [revolutions]
   int bouncing_stable() const;     ///< 1 stable, 0 unstable, -1 none
 
   static constexpr auto columns() {
@@ -82,7 +82,7 @@ struct ResonancePlace : InternalResonance {
   }
 };
 
-/// Group /resonances, beside the Campbell diagram that they are of.
+/// Resonances beside their Campbell diagram; group /resonances.
 struct ResonanceStudy {
   Campbell diagram;
   std::vector<ResonancePlace> places;  ///< ascending speed
@@ -98,8 +98,8 @@ struct ResonanceStudy {
 /// The model at another speed, reduced.
 std::shared_ptr<const Scene> scene_at_speed(const Model& model, double speed);
 
-/// Finds the resonances between some speeds, and bouncing motions near them if that is asked for,
-/// which threads and processes share.
+/// Finds the resonances between some speeds, and bouncing motions near these if asked for; threads
+/// and processes share that search.
 /// @throws NumericalError  as campbell
 ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
                                const ResonanceOptions& options,

@@ -1,5 +1,5 @@
 #pragma once
-/// Flows that can be stopped: searches for orbits ask for nothing but a flow.
+/// Flows that can be stopped, for searches for orbits, which know nothing but a flow.
 
 #include <functional>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace whirl::inline dyn {
 
-/// A flow that fails from when it is asked to stop.
+/// A flow that fails once it is asked to stop.
 inline Flow until(std::function<bool()> stops, Flow flow) {
   flow.go = [stops = std::move(stops), go = std::move(flow.go)](
                 std::span<const Vec> starts, long revolutions, WithTangent wanted) {
@@ -21,7 +21,7 @@ inline Flow until(std::function<bool()> stops, Flow flow) {
   return flow;
 }
 
-/// The same of one in whose equations time does not occur.
+/// The same of an autonomous flow.
 inline AutonomousFlow until(std::function<bool()> stops, AutonomousFlow flow) {
   flow.go = [stops = std::move(stops), go = std::move(flow.go)](const Vec& y, double time,
                                                                 WithTangent wanted) {

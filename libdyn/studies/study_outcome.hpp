@@ -1,5 +1,5 @@
 #pragma once
-/// What there is to say of all points of a study together.
+/// The outcome of all points of a study together.
 
 #include <functional>
 #include <optional>
@@ -17,8 +17,9 @@ namespace whirl::inline dyn {
 /// Motions of a study that have not settled.
 struct UnsettledMotions {
   long motions = 0;
-  std::optional<long> settles_after;  ///< revolutions of transient after which some would have
-  long would_settle = 0;              ///< how many these are
+  /// Revolutions of transient after which some motions would have settled; nothing: not known.
+  std::optional<long> settles_after;
+  long would_settle = 0;  ///< how many would have settled then
 
   static constexpr auto columns() {
     using M = UnsettledMotions;
@@ -32,7 +33,7 @@ struct UnsettledMotions {
 struct StudyOutcome {
   std::size_t resumed = 0;  ///< points that were there already
   std::size_t done = 0, points = 0, failed = 0;
-  Failure failure;  ///< how many points failed, and one of them
+  Failure failure;  ///< how many points failed, and one of these as an example
   UnsettledMotions unsettled;
   HardestTouches hardest{};  ///< of all motions, by the numbers of their points
 
@@ -49,7 +50,7 @@ struct StudyOutcome {
   }
 };
 
-/// The motion at a point of a study: a part of its row, or all of it.
+/// The motion at a point of a study: a part of the row, or all of the row.
 template <class Row>
 auto& motion_of(Row& row) {
   if constexpr (requires { row.motion; }) {
@@ -59,10 +60,10 @@ auto& motion_of(Row& row) {
   }
 }
 
-/// Takes one motion of a study after the other, and says at the end what there is to say of all.
+/// Takes one motion of a study after the other, and tells the outcome of all at the end.
 class OutcomeCount {
  public:
-  /// @param describe  names a point; outlives it
+  /// @param describe  names a point; must outlive this count
   explicit OutcomeCount(const std::function<std::string(std::size_t)>& describe)
       : describe_(describe) {}
   void add(std::size_t point, const ClassifiedMotion& motion);
@@ -72,7 +73,7 @@ class OutcomeCount {
  private:
   const std::function<std::string(std::size_t)>& describe_;
   StudyOutcome sum_{};
-  std::string example_{};  ///< one that failed
+  std::string example_{};  ///< a point that failed
 };
 
 /// @param describe  names a point

@@ -11,7 +11,7 @@
 namespace whirl::inline dyn {
 
 enum class SweepStart {
-  carried,  ///< each value from the motion at the one before, up and then down
+  carried,  ///< each value from the motion at the value before, up and then down
   fresh     ///< every value from the start of its model
 };
 
@@ -24,9 +24,9 @@ struct SweepOptions {
   Stripe stripe{};  ///< the points that are computed
 };
 
-/// Where a motion of a sweep ended; empty if the next one starts afresh.
+/// Where a motion of a sweep ended; empty if the next motion starts afresh.
 struct SweepEnd : FullState {
-  long revolution = 0;  ///< where forces do not repeat with it
+  long revolution = 0;  ///< its number, where forces do not repeat every revolution
 };
 
 struct SweepPoint {
@@ -113,9 +113,9 @@ struct SweepResult {
   StudySystem system{};
   SweepStart start = SweepStart::carried;
   std::vector<std::string> stations{};  ///< of the portraits
-  ProbeLabels probes{};                 ///< those of the model
+  ProbeLabels probes{};                 ///< of the model
   long sections = 0, spectrum_revolutions = 0;
-  /// Way after way, each in the order of the values.
+  /// Points of one way after the other, each in the order of the values.
   PointRows<SweepPoint> points{};
 
   /// Names of the ways.
@@ -152,7 +152,7 @@ struct SweepEntry : MotionSummary {
   double value = 0.0;            ///< of the parameter [SI]
   std::vector<double> poincare;  ///< x at phase 0 of the first station [m]
   double impacts_per_rev = 0.0;
-  /// Of what the probes read [m]; none without a spectrum.
+  /// Mean and peak to peak of the readings of the probes [m]; empty without a spectrum.
   std::vector<double> probe_mean{}, probe_peak_to_peak{};
 
   static constexpr auto columns() {
@@ -172,42 +172,44 @@ struct SweepEntry : MotionSummary {
   }
 };
 
-/// One way of a sweep, in the order in which it went.
+/// One way of a sweep, in the order in which the sweep went.
 struct SweepWay {
   const SweepResult& sweep;
   const std::vector<double>& values;
   std::size_t way = 0;  ///< 1: down
 
   std::size_t size() const { return values.size(); }
-  /// Number of the value that was the k-th.
+  /// Number of the value that came k-th on this way.
   std::size_t index(std::size_t k) const { return way == 1 ? size() - 1 - k : k; }
   std::optional<SweepPoint> point(std::size_t k) const;
-  /// The values that are computed.
+  /// Entries of the values that are computed.
   std::vector<SweepEntry> entries() const;
 };
 
-/// Values of a way, next to each other, at which a contact touches; both ends belong to them.
+/// Values of a way, next to each other, at which a contact touches; both ends are among these
+/// values.
 struct TouchRange {
   std::size_t contact = 0;       ///< its number
   std::size_t from = 0, to = 0;  ///< as SweepWay counts values
-  bool begins = false;           ///< at the value before it does not touch
-  bool ends = false;             ///< at the value behind it does not touch
-  bool is_permanent = false;     ///< it touches all the time at all of them
+  bool begins = false;           ///< the contact does not touch at the value before
+  bool ends = false;             ///< the contact does not touch at the value behind
+  bool is_permanent = false;     ///< the contact touches all the time at all of these values
 };
-/// Contact after contact, along the way. Motions that failed, or are not computed, end a range.
+/// Ranges of contact after contact, along the way. Motions that failed, or are not computed, end a
+/// range.
 std::vector<TouchRange> touch_ranges(const SweepWay& way);
 
 /// Classifies and portrays the motions along the values of one parameter.
 ///
-/// Carried, a motion that is not proven goes on for the measured revolutions before the next value
-/// takes it over; one thread goes ahead along the values, the others find out what the motions are.
-/// Where a motion fails, the next one begins afresh.
+/// With SweepStart::carried, a motion that is not proven goes on for the measured revolutions
+/// before the next value takes it over; one thread goes ahead along the values, the others tell the
+/// kinds of motions. Where a motion fails, the next motion begins afresh.
 ///
 /// @param earlier  what another call with the same models and options has found: its points stay as
 ///                 they are; empty: none
 /// @return  with fewer points if the monitor stopped it
 /// @throws ModelError      as models
-/// @throws NumericalError  if the first point cannot be computed with, or nothing moves
+/// @throws NumericalError  if the first point cannot be computed, or nothing moves
 SweepResult sweep(const StudyModels& models, const SweepOptions& options,
                   const Monitor<SweepResult>& monitor = {}, SweepResult earlier = {});
 

@@ -22,21 +22,21 @@ struct TorusOptions {
 struct CirclePoint {
   double value = 0.0;     ///< of the parameter
   double rotation = 0.0;  ///< turns per revolution
-  double growth = 0.0;    ///< largest exponent across it, per revolution; NaN: there is none
-  double tail = 0.0;      ///< highest harmonics by the largest
+  double growth = 0.0;  ///< largest exponent across the circle, per revolution; NaN: there is none
+  double tail = 0.0;    ///< size of the highest harmonics over the largest
 };
 
 /// One way along the parameter.
 struct CircleWalk {
-  /// What it goes on from. Between its first point and its last one the unknowns do not count, and
-  /// are not there if it was read from a file.
+  /// What the walk goes on from. Unknowns of the points between the first and the last one do not
+  /// count, and are not there if the branch was read from a file.
   Branch branch;
   std::vector<CirclePoint> points;  ///< one for each of the branch
 };
 
 struct TorusBranch {
   InvariantCircle circle;         ///< at the first value
-  double motion_rotation = 0.0;   ///< by which the motion turned, turns per period of the map
+  double motion_rotation = 0.0;   ///< rotation of the motion, turns per period of the map
   std::vector<CircleWalk> walks;  ///< those of ParameterRange::directions that were begun
   bool is_complete = false;       ///< nothing is left to be walked
 
@@ -44,7 +44,7 @@ struct TorusBranch {
   std::vector<CirclePoint> points() const;
 };
 
-/// The circle that a motion moves on; it says itself whether it is one.
+/// The circle that a motion moves on; circle.is_good() says whether there is one.
 ///
 /// @param start  of the motion, without its transient, at phase 0
 /// @param stops  asked often; true: the search ends, and the circle has no points unless it was
@@ -56,13 +56,13 @@ TorusBranch find_torus(
 
 /// Walks along the parameter until the circle locks or breaks, or the range ends.
 ///
-/// @param torus  its circle is one; what it has walked already is gone on with, bit by bit
+/// @param torus  with a good circle; walks that are there go on, bit by bit
 /// @param scale  of the states
-/// @param monitor  told the circles of a walk
+/// @param monitor  told the number of circles of a walk
 TorusBranch follow_torus(const FlowAt& flow_at, const Vec& scale, TorusBranch torus,
                          const TorusOptions& options, const Monitor<TorusBranch>& monitor);
 
-/// Both, one after the other.
+/// Finds a circle and follows it along the parameter.
 ///
 /// @param scenes   the first one that of the circle; others are asked for along the parameter only
 /// @param torus    what there is already; without points: nothing

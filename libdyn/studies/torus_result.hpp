@@ -35,21 +35,21 @@ struct CircleWalkRow : EndTexts {
   static constexpr auto columns() { return EndTexts::columns(); }
 };
 
-/// A circle, and those along a parameter.
+/// A circle, and the circles along a parameter.
 struct TorusResult {
   Vec angles{};            ///< around the circle [rad]
   Mat displacement{};      ///< of all points at phase 0, a row per angle [m, rad]
   double rotation = 0.0;   ///< turns of the circle per revolution
   double frequency = 0.0;  ///< of the lines beside those of the speed [rad/s]
   int period = 1;          ///< of the map [revolutions]
-  bool is_good = true;     ///< it is a circle
+  bool is_good = true;     ///< a circle was found
   int stability = 0;       ///< 1 stable, 0 unstable
   int is_complete = 0;     ///< 1: nothing is left to be walked
-  Vec exponents{};         ///< across it, descending [1/revolution]
-  double along = 0.0;      ///< that along it [1/revolution]
+  Vec exponents{};         ///< across the circle, descending [1/revolution]
+  double along = 0.0;      ///< exponent along the circle [1/revolution]
   int harmonics = 0;
   double residual = 0.0;  ///< [scales]
-  double tail = 0.0;      ///< highest harmonics by the largest
+  double tail = 0.0;      ///< size of the highest harmonics over the largest
   Failure failure{};
 
   ParameterName parameter{};
@@ -107,7 +107,7 @@ struct TorusResult {
   }
 };
 
-/// @param parameter  that of the walks; does not count without
+/// @param parameter  of the walks; does not count without walks
 TorusResult torus_result(const Scene& scene, const TorusBranch& torus,
                          const ParameterName& parameter);
 

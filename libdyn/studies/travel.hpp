@@ -1,5 +1,5 @@
 #pragma once
-/// What of studies goes from one process to another, and back, beside their rows: see
+/// Parts of studies beside their rows as bytes that go from one process to another, and back: see
 /// libbase/structs/travel.hpp.
 
 #include "libbase/structs/travel.hpp"
@@ -58,7 +58,8 @@ void travel(Bytes& bytes, Is<Classification> auto& found) {
         outcome, failure);
 }
 
-/// Without its scene, which the other process makes again, and what is remembered of that.
+/// A motion without its scene, which the other process makes again, and without what is remembered
+/// of that scene.
 template <class Bytes>
 void travel(Bytes& bytes, Is<StudyMotion> auto& motion) {
   auto& [scene, subject, failure] = motion;

@@ -32,8 +32,8 @@ void travel(Bytes& bytes, Is<BegunWalk> auto& walk) {
 struct WalkNews {
   Branch branch{};                       ///< points, bifurcations and its end
   std::vector<OrbitMeasure> measures{};  ///< of a branch of a tree, per point
-  std::vector<Vec> starts{};             ///< likewise: states at phase 0, in the first basis
-  Vec by_parameter{};                    ///< as of BegunWalk, at the last point
+  std::vector<Vec> starts{};  ///< of the same points: states at phase 0, in the first basis
+  Vec by_parameter{};         ///< as of BegunWalk, at the last point
 };
 template <class Bytes>
 void travel(Bytes& bytes, Is<WalkNews> auto& news) {
@@ -41,18 +41,19 @@ void travel(Bytes& bytes, Is<WalkNews> auto& news) {
   bytes(branch, measures, starts, by_parameter);
 }
 
-/// Stretches of walks as pieces: the first number says of what, the second one is that of the walk.
+/// Stretches of walks as pieces: the first number tells branches from curves, the second one is the
+/// number of the walk.
 using WalkWork = PointWork<WalkNews, BegunWalk>;
 
 /// When a stretch is over.
 struct StretchLimits {
-  std::chrono::duration<double> lasts{};  ///< after the point that it takes longer with
-  std::function<bool()> is_stopped{};     ///< asked before each point
+  std::chrono::duration<double> lasts{};  ///< the first point beyond this time ends the stretch
+  std::function<bool()> is_stopped{};     ///< asked before each point and on the way to it
 };
 
 /// Walks on until a stretch is over, or the branch ends.
-/// @param walk     as it was begun
-/// @param measure  called with each point, to add what there is to say of it to the news
+/// @param walk     as begun
+/// @param measure  called with each point, to add its measures to the news
 WalkNews walk_stretch(Continuation walk, const StretchLimits& limits,
                       const std::function<void(const BranchPoint& point, WalkNews&)>& measure = {});
 

@@ -14,7 +14,7 @@ struct WorkPrecisionOptions {
   std::vector<std::string> methods;  ///< as candidate_names; empty: all that suit the system
   std::vector<double> tolerances;
   long revolutions = 20;  ///< that are measured
-  long discard = 500;     ///< before
+  long discard = 500;     ///< before these
 };
 
 /// Group /bench.
@@ -24,7 +24,7 @@ struct WorkPrecisionStudy {
   std::vector<TimedRun> runs;  ///< tolerance by tolerance of method by method
   bool is_whole = true;        ///< false: it was stopped
 
-  /// A number of each run over methods and tolerances; NaN where it failed, or was not measured.
+  /// A number of each run over methods and tolerances; NaN where a run failed, or was not measured.
   Mat table(double (*number)(const TimedRun&)) const;
   Mat errors() const;
   Mat times() const;  ///< [s]
@@ -82,8 +82,8 @@ struct WorkPrecisionStudy {
   }
 };
 
-/// Measures all methods at all tolerances, from where the start is after the revolutions before.
-/// @throws NumericalError  if these cannot be integrated
+/// Measures all methods at all tolerances, from the state after the revolutions that are discarded.
+/// @throws NumericalError  if the discarded revolutions cannot be integrated
 WorkPrecisionStudy work_precision_study(const ContactSystem& system, MotionState start,
                                         const WorkPrecisionOptions& options,
                                         const Monitor<WorkPrecisionStudy>& monitor = {});

@@ -1,5 +1,5 @@
 #pragma once
-/// How much of its clearances a rotor takes that moves as if there were no contacts.
+/// How much of its clearances a rotor takes if it moves as if there were no contacts.
 
 #include <string>
 #include <vector>
@@ -20,8 +20,8 @@ struct ClearanceUse {
   std::string name;                ///< "contact ring", "oil film left", "seal eye"
   double clearance = 0.0;          ///< [m]
   double largest = 0.0;            ///< distance from the middle of the clearance [m]
-  double at = 0.0;                 ///< where it is that far [rad/s]
-  std::vector<SpeedRange> beyond;  ///< where it is more than the clearance
+  double at = 0.0;                 ///< speed of the largest distance [rad/s]
+  std::vector<SpeedRange> beyond;  ///< where the distance is more than the clearance
 
   static constexpr auto columns() {
     constexpr auto ranges = [](const ClearanceUse& use) {
@@ -41,7 +41,7 @@ struct ClearanceUse {
 struct RunningClearance {
   std::string name;        ///< "contact ring", "oil film left", "seal eye"
   double clearance = 0.0;  ///< [m]
-  double distance = 0.0;   ///< from the middle of the clearance, of a stop towards it [m]
+  double distance = 0.0;   ///< from the middle of the clearance, with a stop towards the stop [m]
 
   double left() const { return clearance - distance; }
 
@@ -54,8 +54,8 @@ struct RunningClearance {
   }
 };
 
-/// Clearances of contacts, oil films, and of bearings and seals that tell one, of a rotor that
-/// rests, the closest first.
+/// Running clearances of a rotor at rest, the closest first: of contacts, of oil films, and of
+/// those bearings and seals that tell a clearance.
 /// @param displacement  full vector, see DofMap [m, rad]
 std::vector<RunningClearance> running_clearances(const Model& model, const Assembler& assembler,
                                                  const Vec& displacement);
@@ -69,8 +69,9 @@ std::vector<RunningClearance> largest_distances(const Model& model, const Assemb
 /// The same clearances beside the linear response to unbalance.
 ///
 /// The distance is the largest in a period: of the orbit from the middle of the clearance circle,
-/// of a face that of its rim along the axis. Static sag is not part of the response. The ends of
-/// ranges lie between two of the speeds and are roots of distance - clearance, to 1e-9.
+/// with a stop towards the stop, with a face that of its rim along the axis. Static sag is not part
+/// of the response. The ends of ranges lie between two of the speeds, where the distance is the
+/// clearance to 1e-9.
 ///
 /// @param speeds  ascending, near enough to each other [rad/s]: those of a ResponseCurve
 std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& assembler,

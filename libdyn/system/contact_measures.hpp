@@ -23,17 +23,17 @@ struct ContactTimes {
   std::string name;
   double in_touch = 0.0;  ///< with any of its blades [s]
   double sticking = 0.0;  ///< [s]
-  /// Times it came to touch, all blades together. One whose force lets go and presses again while
-  /// the rotor stays beyond the surface, as damped laws do, has not come to touch again.
+  /// How often the contact came to touch, all blades together. Where the force lets go and presses
+  /// again while the rotor stays beyond the surface, as with damped laws, there is no new touch.
   double impacts = 0.0;
   double max_normal = 0.0;      ///< of one blade [N]
   double max_tangential = 0.0;  ///< of one blade [N]
 
-  /// Adds what it did in the stretch that follows.
+  /// Adds what the contact did in the stretch that follows.
   void append(const ContactTimes& later);
 };
 
-/// What a contact of the model does; of one with blades, what they do together.
+/// What a contact of the model does, with all of its blades together.
 struct ContactMeasure {
   std::string name;
   double duty = 0.0;            ///< share of time in touch, with any of its blades
@@ -54,7 +54,7 @@ struct ContactMeasure {
 struct ContactDoing {
   Regime regime = Regime::none;
   double duty = 0.0;             ///< share of time in touch
-  double impacts_per_rev = 0.0;  ///< times it begins to touch
+  double impacts_per_rev = 0.0;  ///< how often the contact begins to touch
   double sticking = 0.0;         ///< share of time
   double max_normal = 0.0;       ///< [N]
   double max_tangential = 0.0;   ///< [N]
@@ -69,10 +69,10 @@ struct ContactDoing {
                       column("max_tangential", &C::max_tangential, "N", "largest friction force")};
   }
 };
-/// @param revolutions  that the measure is of; impacts of none are those of one
+/// @param revolutions  of the measure; 0 counts as 1
 ContactDoing contact_doing(const ContactMeasure& measure, long revolutions);
 
-/// Times as shares of a whole [s]; nothing is known of slips then: NaN.
+/// Times as shares of a whole [s]; slip velocities do not follow from times: NaN.
 std::vector<ContactMeasure> shares_of(const std::vector<ContactTimes>& times, double whole);
 
 /// Collects measures from the steps of a motion.
@@ -89,7 +89,7 @@ class ContactMeter {
   struct Sum {
     ContactTimes times;
     double touches = 0.0;  ///< time in touch, summed over blades [s]
-    double slip = 0.0;     ///< over that time [m]
+    double slip = 0.0;     ///< distance slipped in that time [m]
   };
 
   const ContactSystem& system_;

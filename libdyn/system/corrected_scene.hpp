@@ -7,14 +7,16 @@
 
 namespace whirl::inline dyn {
 
-/// A scene with static corrections for parameters: with shapes for what these change in its own.
+/// A scene with static corrections for parameters: with further shapes for what these parameters
+/// change in the equations of its own shapes.
 ///
 ///   Phi+ = [Phi, K_s^-1 dM Phi, K_s^-1 dC Phi, K_s^-1 dG Phi, K_s^-1 dK Phi]   of each parameter
 ///
-/// Slopes by a parameter hold the shapes (slope_of). With the forces that the parameter makes in
-/// them answered statically, what is left out is the inertia of these answers: the square of the
-/// frequency over that of the lowest mode that is left out. A bearing or a mass adds two shapes or
-/// four. Nothing is added for contacts, films and unbalances, and to scenes that are not reduced.
+/// Slopes by a parameter hold the shapes (slope_of). The further shapes are static answers to the
+/// forces that the parameter makes in the shapes. Only the inertia of these answers is left out:
+/// the square of the frequency over that of the lowest mode that is left out. A bearing or a mass
+/// adds two or four shapes. Nothing is added for contacts, films and unbalances, and to scenes that
+/// are not reduced.
 ///
 /// @param model   of the scene
 /// @param others  the same with another value of one parameter each

@@ -11,10 +11,10 @@ namespace whirl::inline dyn {
 /// Number of equal steps over what is left of a revolution, a whole number.
 ///
 /// A step is `fixed_step` at most, or if that is not given a thousandth of a revolution at a
-/// tolerance of 1e-10 and tolerance^(1/4) times as long at others.
+/// tolerance of 1e-10, and (tolerance / 1e-10)^(1/4) times as long at others.
 ///
 /// @param period  of a revolution [s]
-/// @param left    of it [s]
+/// @param left    what is left of the revolution [s]
 inline double equal_steps(double period, double left, const IntegrationOptions& options) {
   constexpr double usual_steps = 1000.0, usual_tolerance = 1e-10;
   const double longest =

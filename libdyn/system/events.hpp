@@ -9,7 +9,8 @@
 
 namespace whirl::inline dyn {
 
-/// What can end the present state of a contact. Each has a function that is positive until then.
+/// What can end the present state of a contact. Each kind has a function that is positive before
+/// the event.
 enum class EventKind : unsigned char {
   touch,        ///< apart:     1 - r^2 / clearance^2
   release,      ///< in touch:  N, or r^2 / clearance^2 - 1 for laws that are continuous
@@ -17,7 +18,7 @@ enum class EventKind : unsigned char {
   retouch,      ///< receding:  -N, or minus the rate factor
   part,         ///< receding:  r^2 / clearance^2 - 1
   slip_stop,    ///< sliding:   sign of the slip times the slip velocity
-  stick_limit,  ///< sticking:  (mu N)^2 - T^2, sums over those that slip alike
+  stick_limit,  ///< sticking:  (mu N)^2 - T^2, sums over contacts that slip alike
 };
 
 struct Event {
@@ -38,7 +39,8 @@ class EventWatcher {
   double value(const Event& event, const Instant& at, const double* y,
                const ContactStates& states) const;
 
-  /// The same from the forces of its contact, for kinds that ask for them alone: not stick_limit.
+  /// The same from the forces of the event's contact, for all kinds but stick_limit, which asks for
+  /// more.
   double value(const Event& event, const ContactForces& f, const ContactState& state) const;
 
   /// The function of stick_limit.
@@ -48,24 +50,25 @@ class EventWatcher {
   /// stick together.
   void apply(const Event& event, const Instant& at, const double* y, ContactStates& states);
 
-  /// A step without an event was made: nothing starts on a surface any more.
+  /// A step was made without an event inside: no contact starts on a surface any more.
   void moved_on();
 
-  /// Kinds that can end a contact's state. Of contacts that stick and slip alike, the first is
-  /// asked for all of them.
+  /// Kinds that can end a contact's state. Of contacts that stick and slip alike, the first one
+  /// stands for all.
   std::span<const EventKind> kinds(int contact, const ContactStates& states) const;
 
   /// Whether the function of this kind is zero by definition at the start of the next step.
   bool on_surface(int contact, EventKind kind) const;
 
-  /// Whether its slope is zero there, too: a slip that begins where sticking ends, as T is mu N
-  /// then.
+  /// Whether the slope of this function is zero there, too: of a slip that begins where sticking
+  /// ends, as T is mu N then.
   bool is_level(int contact, EventKind kind) const;
 
  private:
   Polynomial polynomial(const Step& step, int contact, EventKind kind) const;
   void enter_touch(int contact, const Instant& at, const double* y, ContactStates& states);
-  /// Sets the contacts in touch that slip as one does, and what is known of their slip there.
+  /// Sets the states of the contacts in touch that slip like a given one, and what is known of
+  /// their slip at the event.
   void set_group(int contact, const ContactState& to, bool is_level, ContactStates& states);
 
   const ContactSystem& system_;

@@ -7,7 +7,7 @@
 
 namespace whirl::inline dyn {
 
-/// Says where an integration failed: time, contacts in touch, size of the state.
+/// Says where an integration failed: time, what contacts and films do, size of the state.
 std::string failure_text(const ContactSystem& system, const MotionState& state,
                          std::string_view what);
 

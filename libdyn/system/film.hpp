@@ -10,13 +10,13 @@
 
 namespace whirl::inline dyn {
 
-/// An oil film at a speed. The rate that makes numbers of its rates is that of the phase.
+/// An oil film at a speed. Velocities are told over the clearance and the rate of the phase.
 struct FilmAtSpeed {
   Vec2 offset;
   double clearance;  ///< [m]
   double factor;     ///< of the force [N.s]
-  double spin;  ///< Omega over the rate of the phase: 1; 0 without spin, or if it does not drag
-  double rate;  ///< of the phase [rad/s]
+  double spin;       ///< Omega over the rate of the phase, 1 or -1; 0: no spin, or none that drags
+  double rate;       ///< of the phase [rad/s]
   AnyFilmLaw law;
 };
 
@@ -30,7 +30,7 @@ struct ReducedFilm : FilmAtSpeed {
   Eigen::Matrix<double, Eigen::Dynamic, 2> B;  ///< acceleration eta'' = B (force on the journal)
 };
 
-/// Eccentricity of the journal over the clearance; the film is torn where it is 1 or more.
+/// Eccentricity of the journal over the clearance; at 1 or more the journal is outside its bearing.
 double eccentricity(const ReducedFilm& film, const double* y, StateLayout layout);
 
 /// Force on the journal [N]; no number outside the bearing.
@@ -46,8 +46,8 @@ struct FilmSlopes {
 /// What the oil does at a displacement from the bearing [m] and a velocity [m/s]; nothing outside.
 std::optional<FilmSlopes> film_slopes(const FilmAtSpeed& film, const Vec2& u, const Vec2& u_rate);
 
-/// Where the film alone carries a load [N], a displacement from the bearing [m]; nothing where it
-/// cannot: without spin, or nearer to the wall than 1e-12 of the clearance.
+/// Displacement from the bearing [m] at which the film alone carries a load [N]; nothing without
+/// spin, or if that place is nearer to the wall than 1e-12 of the clearance.
 std::optional<Vec2> place_under(const FilmAtSpeed& film, const Vec2& load);
 
 }  // namespace whirl::inline dyn

@@ -1,5 +1,6 @@
 #pragma once
-/// A rotor at rest on its oil films at a speed, and its films as linear connections about that.
+/// A rotor at rest on its oil films at a speed, and its films as linear connections about this
+/// equilibrium.
 
 #include <memory>
 #include <vector>
@@ -12,22 +13,22 @@
 
 namespace whirl::inline dyn {
 
-/// A rotor that its films carry, without unbalance, contacts and whirl.
+/// A rotor carried by its films, without unbalance, contacts and whirl.
 struct RotorOnFilms {
   double Omega = 0.0;              ///< [rad/s]
   System system;                   ///< without films, nothing condensed
-  Vec q;                           ///< displacement in its coordinates
+  Vec q;                           ///< displacement in the coordinates of the system
   Vec load;                        ///< full vector of the loads and the films' forces [N, N.m]
-  std::vector<RunningFilm> films;  ///< those that are linearized, as in the model
+  std::vector<RunningFilm> films;  ///< those that are linearized, in the order of the model
 };
 
 /// Finds where the journals run.
 ///
 ///   (K + Omega H) q = f + sum_i U_i^T F_i(U_i q)
 ///
-/// is solved in the displacements U_i q of the journals alone: the rotor between them is linear,
-/// and acts on them as a load and a stiffness, which are found once if they do not change with
-/// speed (PortBalance).
+/// is solved in the displacements U_i q of the journals alone: the rotor between the journals is
+/// linear and acts on them as a load and a stiffness, which are found once if the rotor does not
+/// depend on the speed (PortBalance).
 class FilmEquilibrium {
  public:
   explicit FilmEquilibrium(const Model& model);
@@ -35,11 +36,11 @@ class FilmEquilibrium {
 
   /// Several threads may ask.
   /// @throws ModelError      if the rotor were free even with its journals held
-  /// @throws NumericalError  if there is none: without speed a film carries nothing
+  /// @throws NumericalError  if there is no equilibrium: without speed a film carries nothing
   std::shared_ptr<const RotorOnFilms> at(double Omega) const;
 
-  /// Coefficients of the films there, one after the other; found once for each speed and kept, as
-  /// many analyses ask for them again.
+  /// Coefficients of the films at their equilibrium, one after the other; found once for each speed
+  /// and kept, as many analyses ask again.
   const std::vector<BearingCoefficients>& coefficients(double Omega) const;
 
  private:
@@ -47,16 +48,17 @@ class FilmEquilibrium {
   std::unique_ptr<State> state_;
 };
 
-/// Whether linear analyses know any film of a model.
+/// Whether any film of a model is linearized for linear analyses.
 bool has_linear_films(const Model& model);
 
-/// The structure of a model for linear analyses: films are connections with the coefficients that
-/// they have, at every speed, where their journals run then. Without films it is that of the model.
+/// The structure of a model for linear analyses: films are connections, whose coefficients at a
+/// speed are those at the place where the journal runs at this speed. Without films this is the
+/// structure of the model.
 Structure linear_structure(const Model& model);
 
 /// The system of a scene as linear analyses have it: with films, if the model has any.
 System linear_system(const Model& model, const Scene& scene);
-/// Its lowest modes, each with the coefficients of its own frequency.
+/// The lowest modes of that system, each with the coefficients of its own frequency.
 Modes linear_modes(const Model& model, const Scene& scene, int count);
 
 }  // namespace whirl::inline dyn

@@ -17,10 +17,10 @@ struct HardestTouch {
   std::size_t rubbed = 0;   ///< number of the motion with that friction
 };
 
-/// Per contact of a model.
+/// The hardest touches at each contact of a model.
 class HardestTouches {
  public:
-  /// Takes what contact number i does in a motion of a number.
+  /// Takes what contact number i does in motion number `motion`.
   void add(std::size_t motion, std::size_t i, double normal, double tangential, double duty);
   void add(std::size_t motion, const std::vector<ContactMeasure>& contacts);
   void add(std::size_t motion, const std::vector<ContactDoing>& contacts);
@@ -31,14 +31,14 @@ class HardestTouches {
   std::vector<HardestTouch> contacts_{};
 };
 
-/// Depth at which a contact law presses with a normal force, at rest [m]. NaN: the force does not
-/// begin with the depth, so that it does not tell one.
+/// Depth at which a contact law presses with a normal force, at rest [m]. NaN: the force jumps at a
+/// touch, so that it tells no depth.
 double depth_under(const AnyContactLaw<>& law, double normal);
 
 /// What friction at a contact takes from a rotor whose speed is kept.
 struct FrictionPower {
   double power = 0.0;        ///< at most, friction force times speed of the rim [W]
-  double revolutions = 0.0;  ///< after which it has taken the energy of the spin; NaN: not known
+  double revolutions = 0.0;  ///< until friction has taken the energy of the spin; NaN: not known
 };
 /// @param rubbing  as of HardestTouch [N]
 FrictionPower friction_power(const Model& model, const Contact& contact, double rubbing);

@@ -37,14 +37,14 @@ constexpr auto choices(StartFrom) {
 struct Start {
   StartFrom from = StartFrom::equilibrium;
   std::string file;                  ///< result whose end is the start (StartFrom::file)
-  std::vector<WhirlStart> whirl;     ///< added to it
-  std::vector<Displaced> displaced;  ///< likewise
+  std::vector<WhirlStart> whirl;     ///< added to that state
+  std::vector<Displaced> displaced;  ///< added as well
 };
 
 /// Speeds that a machine is run at, for lateral analyses [rad/s]; 0: not told.
 struct MachineSpeeds {
   double minimum = 0.0, maximum = 0.0;  ///< continuously
-  double trip = 0.0;                    ///< at which it is stopped
+  double trip = 0.0;                    ///< at which the machine is stopped
 
   static constexpr auto fields() {
     using enum Range;
@@ -62,12 +62,12 @@ struct MachineSpeeds {
 struct Model {
   std::string title;
   std::string source;  ///< text of the model file, with everything set from the command line
-  std::string path;    ///< where it came from
+  std::string path;    ///< where the text came from
   Structure structure;
   std::vector<Contact> contacts;
   std::vector<OilFilm> films;
   double speed = 0.0;      ///< operating speed [rad/s]
-  bool has_speed = false;  ///< whether the model says it
+  bool has_speed = false;  ///< whether the model says a speed
   MachineSpeeds machine{};
   Reduction reduction;
   Start start;

@@ -25,7 +25,7 @@ struct ModelFacts {
   std::optional<double> transverse_inertia{};
   std::vector<BearingLoad> bearing_loads{};    ///< of bearings and oil films at rest
   std::vector<RunningClearance> clearances{};  ///< at rest, the closest first
-  std::string no_rest{};                       ///< why there is no rest; empty: there is one
+  std::string no_rest{};                       ///< why there is no equilibrium; empty: there is one
 
   static constexpr auto columns() {
     using F = ModelFacts;

@@ -14,7 +14,7 @@ namespace whirl::inline dyn {
 ///
 ///   dc/dp = sum_i weight_i (c(above_i) - c(below_i))
 ///
-/// Of numbers that the parameter leaves as they are it is zero, exactly.
+/// The derivative of a number that does not depend on the parameter is zero, exactly.
 class NumberSlopes {
  public:
   /// @param slope  must live as long as this
@@ -57,8 +57,8 @@ class NumberSlopes {
   std::vector<Pair> pairs_;
 };
 
-/// @throws NumericalError  where a parameter has no derivative, as motions change their kind with
-///                         it
+/// @throws NumericalError  where a parameter has no derivative: at a speed of zero, or where
+///                         friction switches exactly in a neighbor only
 void require_smooth(const ContactSystem& system, const SystemSlope& parameter);
 
 }  // namespace whirl::inline dyn

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a linear rotor comes to rest in its oil films and on its stators: the one solver of that.
+/// The equilibrium of a linear rotor in its oil films and on its stators, and its one solver.
 
 #include <optional>
 #include <string>
@@ -9,39 +9,39 @@
 
 namespace whirl::inline dyn {
 
-/// Rows of a matrix of which none follows from those before it, and what all rows are made of them.
+/// Rows of a matrix none of which follows from earlier ones, and all rows as sums of these.
 struct IndependentRows {
   std::vector<Eigen::Index> chosen;  ///< ascending
   Mat of;                            ///< all rows = of * chosen rows
 };
 IndependentRows independent_rows(const Mat& rows);
 
-/// A linear rotor as its ports feel it. Ports are the displacements [m] on which films and contacts
-/// act, two for each film, then for each contact; w are independent ones, by which the rotor is
-/// held.
+/// A linear rotor as films and contacts feel it. Its ports are the displacements [m] on which these
+/// act, two for each film, then two for each contact; w are independent ports, at which the rotor
+/// is held.
 struct HeldRotor {
   IndependentRows ports;
   Vec rest;    ///< coordinates at w = 0
-  Mat shapes;  ///< and by w
+  Mat shapes;  ///< derivative of the coordinates by w
   Vec R;       ///< force that holds the rotor at w = 0 [N]
-  Mat K;       ///< and by w [N/m]
+  Mat K;       ///< derivative of that force by w [N/m]
 };
 
 /// The balance of a rotor that films and the normal forces of contacts carry, without friction:
 ///
 ///   R + K w = sum_i P_i^T F_i(P_i w)
 ///
-/// Whatever moves the rotor besides is linear and stands in R and K, so that stiff shafts cost no
+/// All other forces on the rotor are linear and stand in R and K, so that stiff shafts cost no
 /// digits. Newton's method with exact slopes starts where each film alone carries its share of the
 /// load; where that leads nowhere, the load is put on little by little.
 class PortBalance {
  public:
-  /// @param rotor     is referred to
+  /// @param rotor     must live as long as the balance
   /// @param contacts  turning ones at phase 0
   PortBalance(const HeldRotor& rotor, std::vector<FilmAtSpeed> films,
               std::vector<ReducedContact> contacts = {});
 
-  /// A place of equilibrium; what is asked of it are w and journals.
+  /// A place of equilibrium.
   struct Place {
     Vec w;
     std::vector<Vec2> journals;  ///< displacements from the middles of their bearings [m]
@@ -49,7 +49,7 @@ class PortBalance {
 
   /// @return  nothing: not found
   std::optional<Place> find() const;
-  /// The same from a place nearby, or by loading slowly.
+  /// Finds the equilibrium from a place nearby, or by loading slowly.
   std::optional<Place> find(const Vec& w) const;
 
  private:
@@ -63,7 +63,7 @@ class PortBalance {
   void add(At& at, std::size_t port, const Vec2& force, const Mat2& by_u) const;
 
   const HeldRotor& rotor_;
-  Mat ports_;                       ///< from w
+  Mat ports_;                       ///< all ports by w
   std::vector<FilmAtSpeed> films_;  ///< without offset, which would cost digits near the wall
   std::vector<ReducedContact> contacts_;
   Vec scale_, middle_, load_;

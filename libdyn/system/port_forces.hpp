@@ -9,7 +9,7 @@
 
 namespace whirl::inline dyn {
 
-/// Displacements that a force depends on, and that it acts along: at most so many at one place.
+/// Largest number of displacements at one place that a force depends on and acts along.
 constexpr int most_ports = 4;
 using PortVec = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_ports, 1>;
 using PortMat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_ports, most_ports>;
@@ -19,8 +19,8 @@ using PortMat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_po
 ///   1 / (2 pi) int g phi d(theta) = sum_i share_i g_i phi(theta_i)
 ///
 /// and the same for the derivative by the motion, with by_u and by_rate in place of g. Where a
-/// force jumps, the instant of the jump moves with the motion: a sample without force but with
-/// slopes.
+/// force jumps, the instant of the jump moves with the motion: this makes a sample without force
+/// but with slopes.
 struct PortSample {
   double theta = 0.0;  ///< angle within the period, 0 to 2 pi
   double share = 0.0;  ///< of the period
@@ -34,8 +34,8 @@ struct PortForces {
   std::string name;
   Mat U;  ///< ports x n [m]
   Mat B;  ///< n x ports
-  /// Samples of the forces on a motion of these ports; more of them the more harmonics it has.
-  /// False: there is no force, as outside an oil film.
+  /// Samples of the forces on a motion of these ports; their number grows with the motion's
+  /// harmonics. False: there is no force, as of an oil film whose journal is outside its bearing.
   std::function<bool(const Periodic& motion, std::vector<PortSample>&)> sample;
 };
 
@@ -43,7 +43,7 @@ struct PortForces {
 /// @param number  per harmonic, 4 or more
 int even_instants(const Periodic& motion, int number);
 
-/// A smooth force g(phase, u, u') at such instants.
+/// A smooth force g(phase, u, u') at even instants.
 ///
 /// Its Fourier integrals have the accuracy of the motion's series where it is analytic.
 ///

@@ -19,8 +19,8 @@ struct Scene;
 struct ProbeLabel {
   std::string name;
   double angle = 0.0;        ///< of its direction, from +x towards +y [rad]
-  double face_radius = 0.0;  ///< of an axial one [m]; 0: it looks across the shaft
-  std::string unit;          ///< a length, in which people are told what it reads
+  double face_radius = 0.0;  ///< of an axial probe [m]; 0: the probe looks across the shaft
+  std::string unit;          ///< of length, in which people are told readings
 
   ProbeLabel() = default;
   ProbeLabel(const Probe& probe)
@@ -90,14 +90,14 @@ constexpr auto probe_label_columns() {
                         .maybe()};
 }
 
-/// Those of a scene's model.
+/// The probes of a scene's model.
 const std::vector<Probe>& probes_of(const Scene& scene);
 
 /// What probes read of reduced coordinates, probes x coordinates.
 /// @param map  the displacement_map() of the scene
-/// @throws ModelError  for a probe at a station that there is not
+/// @throws ModelError  for a probe at a station that does not exist
 Mat probe_rows(const std::vector<Probe>& probes, const Scene& scene, const Mat& map);
-/// The same of those of its model.
+/// The same of the probes of the scene's model.
 Mat probe_rows(const Scene& scene, const Mat& map);
 
 }  // namespace whirl::inline dyn

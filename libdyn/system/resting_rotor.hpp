@@ -11,13 +11,13 @@ namespace whirl::inline dyn {
 
 struct RestingRotor {
   StaticEquilibrium at_rest;
-  std::vector<RunningFilm> films;  ///< those that linear analyses know
+  std::vector<RunningFilm> films;  ///< those that are linearized
 
-  /// What bearings, then films carry; not seals.
+  /// Loads that bearings, then films carry; not those of seals.
   std::vector<BearingLoad> journal_loads(const Model& model) const;
 };
 
-/// The static equilibrium of a model at a speed [rad/s]; films carry as they do there, contacts are
+/// The static equilibrium of a model at a speed [rad/s]; films carry as at that speed, contacts are
 /// left out.
 /// @throws ModelError      as static_equilibrium
 /// @throws NumericalError  as FilmEquilibrium::at

@@ -1,5 +1,5 @@
 #pragma once
-/// A journal that runs on its oil film, as a result: where, and what the film is like there.
+/// A journal that runs on its oil film, as a result: its place, and the film at that place.
 
 #include <cmath>
 #include <optional>
@@ -85,12 +85,12 @@ struct RunningFilms {
   static constexpr auto columns() { return ColumnList{rows(&RunningFilms::films, "films")}; }
 };
 
-/// A journal at a place, a displacement from the middle of its bearing [m].
+/// The film of a journal at a place, a displacement from the middle of its bearing [m].
 ///
 ///   S = viscosity N (2 R) L / W (R / c)^2,   N = |Omega| / 2 pi
 ///   P = |Omega| (2 pi viscosity |Omega| R^3 L / (c sqrt(1 - e^2)) + |place x load| / 2)
 ///
-/// The film is sheared all around, where it is not full, too: the loss is not less than that.
+/// P is the loss of a film that is full all around: it is not less where a real film is not full.
 ///
 /// @source [PinkusSternlicht1961]
 RunningFilm running_film(const OilFilm& film, double Omega, const Vec2& place);

@@ -27,7 +27,7 @@ struct Saltation {
 ///
 /// @param y       state at the event
 /// @param before  states of the contacts until the event
-/// @param after   and from it on
+/// @param after   states of the contacts from the event on
 std::optional<Saltation> saltation(const ContactSystem& system, const Event& event,
                                    const Instant& at, const Vec& y, const ContactStates& before,
                                    const ContactStates& after);

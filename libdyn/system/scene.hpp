@@ -20,31 +20,31 @@ struct Scene {
   Mat displacement_map() const { return reduced.dofs.T * reduced.Phi; }
 };
 
-/// Whether the error of the reduction is estimated where its modes are given: it takes most of the
-/// time. With `tolerance` it is, always.
+/// Whether the error of a reduction to a given number of modes is estimated, which takes most of
+/// the time. Where the number follows from `tolerance`, the error is always estimated.
 enum class ReductionEstimate { no, yes };
 
 /// Assembles and reduces a model at its operating speed.
 ///
-/// @throws ModelError      as Assembler, and for contacts, unbalances or forces at stations without
-///                         inertia
+/// @throws ModelError      as Assembler, and for contacts, oil films, unbalances or forces at
+///                         stations without inertia
 /// @throws NumericalError  as reduce
 Scene make_scene(const Model& model, ReductionEstimate wanted = ReductionEstimate::yes);
 
-/// The same of a structure that has been assembled already.
+/// The scene of a model whose structure has been assembled already.
 Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate wanted);
 
 /// A scene with other laws of its contacts and films, at the same stations and speed.
 Scene with_contacts(const Scene& scene, const Model& model);
 
-/// Motions of all dofs in coordinates: those nearest in kinetic energy,
+/// Reduced coordinates of motions q of all dofs, the nearest in kinetic energy:
 /// eta = (Phi^T M Phi)^-1 Phi^T M q.
 class NearestCoordinates {
  public:
   explicit NearestCoordinates(const Scene& scene);
 
   Vec of(const Vec& q) const { return mass_.solve(weighted_ * q); }
-  /// The matrix that makes them, coordinates x dofs.
+  /// The matrix that makes eta of q, coordinates x dofs.
   Mat matrix() const { return mass_.solve(weighted_); }
   const DenseLu<Mat>& mass() const { return mass_; }  ///< Phi^T M Phi
 

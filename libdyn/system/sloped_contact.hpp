@@ -14,7 +14,8 @@ using ByParameter = Dual<1>;
 
 /// A contact whose numbers bring their derivatives along.
 ///
-/// Those of its rows U, B, V and B_t are none of its force on a motion that is known where it acts.
+/// Derivatives of the rows U, B, V and B_t are not part of this: the force on a motion that is
+/// known where the contact acts does not depend on these rows.
 struct SlopedContact {
   ReducedContact contact;
   AnyContactLaw<ByParameter> law;
@@ -25,7 +26,7 @@ struct SlopedContact {
   ByParameter tolerance;  ///< of a smoothed sign of the slip [m/s]
   ByParameter tip;        ///< radius of a place about the rotor's axis [m]
   ByParameter tip_speed;  ///< Omega tip [m/s]
-  Vec2 turned_normal;     ///< derivative of the direction in which it is met, if there is one
+  Vec2 turned_normal;     ///< derivative of a stop's direction, else zero
 
   /// Kinematics on a motion.
   /// @param motion  displacement from the rotor's axis at rest, and rates

@@ -45,8 +45,9 @@ std::vector<NamedPoint> named_points(const Model& model, const Assembler& assemb
 
 /// Points asked for by a list "seal,left disk,7,all": names, node numbers, or "all".
 ///
-/// An empty list stands for everything with a contact, a disk or a bearing, and all bodies.
-/// @throws OptionError  for an unknown name, with those that there are
+/// An empty list stands for all points with a disk, contact, oil film, bearing, seal or probe, and
+/// all bodies.
+/// @throws OptionError  for an unknown name, with the known ones
 std::vector<NamedPoint> select_points(const Model& model, const Assembler& assembler,
                                       const std::string& list);
 

@@ -9,7 +9,8 @@
 
 namespace whirl::inline dyn {
 
-/// A contact on the motion that closes it (and below, where friction acts elsewhere, of that).
+/// A contact on the motion that closes it; two more rows are the motion where friction acts
+/// elsewhere.
 class ContactPath {
  public:
   /// @param motion  2 rows, or 4 of a contact that rubs apart; both must live as long as the path
@@ -22,7 +23,7 @@ class ContactPath {
     bool begins = true,
          ends = true;  ///< touches and releases there; else the slip changes its sign
     bool is_whole() const { return !begins && !ends && is_uncut; }
-    bool is_uncut = false;  ///< it touches all the time and always slips in one sense
+    bool is_uncut = false;  ///< the contact touches all the time and always slips in one sense
   };
   std::vector<Span> spans() const;
 

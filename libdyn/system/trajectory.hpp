@@ -10,7 +10,8 @@
 
 namespace whirl::inline dyn {
 
-/// Where a motion is. Time is a whole number of revolutions and a phase: it never loses digits.
+/// Where a motion is. Time is a whole number of revolutions and a phase, so that no digits are
+/// lost.
 struct MotionState {
   long revolution = 0;
   double phase = 0.0;  ///< within the revolution, 0 <= phase < 2 pi [rad]
@@ -51,8 +52,8 @@ struct IntegrationOptions {
                              ///< (one-step methods)
 };
 
-/// Displacement beyond which a motion is given up, in length scales: that of a clearance of 1 mm is
-/// as far as the moon, three times over.
+/// Displacement beyond which a motion is given up, in length scales: with a clearance of 1 mm
+/// nearly three times as far as the moon.
 constexpr double boundless = 1e12;
 constexpr const char* boundless_text = "the motion grows without bound";
 

@@ -20,17 +20,18 @@ struct Axis {
 
   /// Place of a number: 0 at first, 1 at last.
   double place(double value) const;
-  /// Ticks within the range: round numbers, or powers of ten with small ticks at 2 to 9 times them
-  /// where there are two of them.
-  /// @param most  labelled ones
+  /// Ticks within the range: round numbers; on a logarithmic axis with two labelled powers of ten
+  /// the powers, with small ticks at 2 to 9 times each if every power is labelled.
+  /// @param most  labelled ticks
   std::vector<Tick> ticks(int most) const;
 };
 
-/// Whether its limits are so far apart, and so near to zero, that places and ticks are no rounding.
+/// Whether the limits of an axis are far enough apart for their size, and none is too large, so
+/// that places and ticks are not lost in rounding.
 bool can_be_drawn(const Axis& axis);
 
-/// The axis of round limits that shows all numbers; others than those up to 1e300 (and above
-/// 1e-300, if logarithmic) do not count. Without any, 0 to 1, or 1 to 10.
+/// The axis of round limits that shows all numbers; numbers above 1e300 (or below 1e-300, if
+/// logarithmic) do not count. Without any number, 0 to 1, or 1 to 10.
 Axis axis_around(const std::vector<double>& values, Scale scale);
 
 /// Places as near as possible to those wanted, in the same order, with distances between them.

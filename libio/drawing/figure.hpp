@@ -77,7 +77,7 @@ struct FigureAxis {
   Scale scale = Scale::linear;
   double first = not_set, last = not_set;  ///< what is seen first; not_set: all
   double step = not_set;                   ///< between ticks; not_set: round numbers
-  std::string also_unit{};                 ///< numbers are told in this unit too, "X" for orders
+  std::string also_unit{};                 ///< numbers are also told in this unit, "X" for orders
   double also_factor = 1.0;
 };
 
@@ -100,7 +100,7 @@ struct Curve {
   std::string along_title{};           ///< "time [s]"; points of one time are shown together
   bool is_key = true;                  ///< counts for the range of the axes
   std::vector<std::string> details{};  ///< of points, told after a click; lines
-  std::string command{};  ///< of a point, with a place {n} for its number of `along`; after a click
+  std::string command{};  ///< of a point, told after a click; {n} stands for its `along`
 };
 
 struct Category {
@@ -112,14 +112,15 @@ struct Category {
 struct Cells {
   std::vector<double> x{}, y{};        ///< middles of the columns and rows, ascending
   std::vector<double> values{};        ///< of the row y[j], column x[i] at j * x.size() + i
-  std::vector<Category> categories{};  ///< values count them; empty: a scale of colors
+  std::vector<Category> categories{};  ///< values are their numbers; empty: a scale of colors
   ColorMap map = ColorMap::sequential;
   double first = 0.0, last = 1.0;  ///< of the scale of colors
   std::string title{};             ///< of the values: "amplitude [um]"
   bool prints_values = false;
   std::vector<std::string> x_names{}, y_names{};  ///< instead of numbers along the axes
-  /// Command line of a cell with places {x}, {y}, or negated {-x}, {-y}: in SI, the axes' numbers
-  /// times factors. "{{" is a brace that is no place, in those of curves, too.
+  /// Command line of a cell. Its places {x}, {y}, or negated {-x}, {-y}, stand for numbers in SI:
+  /// those along the axes times x_factor and y_factor. "{{" is a brace that is no place, also in
+  /// commands of curves.
   std::string command{};
   double x_factor = 1.0, y_factor = 1.0;
 
@@ -149,7 +150,7 @@ struct Panel {
   FigureAxis x{}, y{};
   bool has_equal_scales = false;  ///< a circle looks like one
   bool has_frame = true;
-  double share = 1.0;  ///< of the height, beside other rows
+  double share = 1.0;  ///< of the height, relative to other rows
   std::vector<Curve> curves{};
   Cells cells{};
   std::vector<Rule> rules{};
@@ -166,8 +167,8 @@ struct FigureTable {
 /// What the page can add to a figure.
 enum class Subject {
   numbers,
-  rotor,  ///< a drawing of the rotor: its motion in space beside it; places in it are no values
-  orbit   ///< the path of a station: a line of a spectrum is a circle in it
+  rotor,  ///< a drawing of the rotor, its motion in space beside it; x and y are not told
+  orbit   ///< the path of a station, in which a line of a spectrum is a circle
 };
 
 struct Figure {
@@ -203,7 +204,7 @@ std::string with_minus(std::string text);
 /// Numbers times a factor.
 std::vector<double> scaled(std::vector<double> values, double factor);
 
-/// Axes that show all of a panel as it wants to be seen, before equal scales are made.
+/// Axes that show all of a panel as the panel asks for, before its scales are made equal.
 struct PanelAxes {
   Axis x, y;
 };

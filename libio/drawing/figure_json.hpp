@@ -16,7 +16,7 @@ namespace whirl::inline io {
 /// those above 4096 numbers.
 class ArrayStore {
  public:
-  /// Stores an array; its number.
+  /// Stores an array; returns its number.
   int add(const std::vector<double>& values);
   /// [{type, data}, ...]
   Record record() const;
@@ -34,7 +34,8 @@ Record record_of(const Figure& figure, ArrayStore& arrays);
 /// Colors by name, on light and on dark pages, and the stops of the color maps.
 Record color_record();
 
-/// Distances around panels and dashes of lines, as files have them: Rooms and dashes_of.
+/// Distances around panels and dashes of lines, as files of pictures have them: Rooms and
+/// dashes_of.
 Record style_record();
 
 }  // namespace whirl::inline io

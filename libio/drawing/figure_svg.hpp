@@ -10,7 +10,7 @@ namespace whirl::inline io {
 /// How large a picture is to be printed.
 struct PictureSize {
   double width = 0.0, height = 0.0;  ///< [mm]; 0: as large as the figure wants to be
-  double font = 0.0;  ///< letters of axes and legend [pt]; 0: 8 of a given size, else 9
+  double font = 0.0;  ///< letters of axes and legend [pt]; 0: 8 if width is given, else 9
   bool has_title = true;
 
   bool is_given() const { return width > 0.0; }
@@ -26,11 +26,12 @@ struct Picture {
 /// Long lines are thinned to what can be seen, dots that hide each other are written once; the
 /// largest study stays a file of a few megabytes.
 ///
-/// In a picture of a given size letters keep theirs, and panels get what room is left. Notes, the
-/// table and the last panels are left out, in this order, where panels would be too small to read.
+/// In a picture of a given size letters keep their size, and panels get the room that is left.
+/// Notes, the table and the last panels are left out, in this order, where panels would be too
+/// small to read.
 Picture picture_of(const Figure& figure, const PictureSize& size);
 
-/// The same as large as the figure wants to be.
+/// The SVG file of a figure, as large as the figure wants to be.
 std::string svg_of(const Figure& figure);
 
 }  // namespace whirl::inline io

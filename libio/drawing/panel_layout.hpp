@@ -28,11 +28,11 @@ struct Rooms {
   double title;                     ///< above a panel with one
   double name, leader;              ///< from a panel to names at the ends of lines
   double bar, bar_width, bar_room;  ///< of a scale of colors
-  double per_label_x, per_label_y;  ///< of a tick
+  double per_label_x, per_label_y;  ///< room for the label of a tick
 };
 constexpr Rooms wide{false, 82.0, 82.0, 19.0, 30.0, 54.0, 21.0, 42.0, 8.0,
                      10.0,  26.0, 30.0, 22.0, 14.0, 14.0, 84.0, 62.0, 40.0};
-/// Of a picture of a given size: what is left goes to the panels.
+/// Distances in a picture of a given size, whose other room goes to the panels.
 constexpr Rooms tight{true, 46.0, 8.0,  15.0, 18.0, 38.0, 16.0, 32.0, 7.0,
                       8.0,  19.0, 16.0, 12.0, 8.0,  10.0, 64.0, 50.0, 25.0};
 
@@ -46,11 +46,11 @@ struct PanelFrame {
   Axis x, y;
   Pixel corner;  ///< upper left
   double width = 0.0, height = 0.0;
-  bool is_lowest = true;         ///< x has numbers below
-  bool has_x_title = true;       ///< and is named
-  double x_title = 0.0;          ///< middle of its name
+  bool is_lowest = true;         ///< x has numbers below the panel
+  bool has_x_title = true;       ///< x is named below its numbers
+  double x_title = 0.0;          ///< middle of the name of x
   bool has_title_above = false;  ///< y is named above: the panel is lower than its name is long
-  double left = 0.0;             ///< room left of it
+  double left = 0.0;             ///< room left of the panel
 
   double right() const { return corner.x + width; }
   double floor() const { return corner.y + height; }
@@ -69,7 +69,7 @@ std::string fitting_title(const std::string& title, double width);
 
 /// Whether a panel is one of a picture of a given size, where room is scarce.
 bool is_tight(const PanelFrame& frame);
-/// Whether a line of a panel is named at its end; names of horizontal rules are among these then.
+/// Whether a line of a panel is named at its end; if so, horizontal rules are named there, too.
 bool has_end_names(const Panel& panel);
 
 /// Ticks of x and of y, as many as have room.

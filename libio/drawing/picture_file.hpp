@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures as files: SVG, and PNG or PDF, which rsvg-convert makes of it.
+/// Pictures as files: SVG, and PNG or PDF, which rsvg-convert makes of SVG.
 
 #include <array>
 #include <filesystem>
@@ -39,7 +39,8 @@ struct PictureFileOptions {
 };
 
 /// Writes a picture, whole or not at all.
-/// @throws FileError  if it cannot be written; without rsvg-convert says which package it is of
+/// @throws FileError  if the file cannot be written; names the package of rsvg-convert if that is
+///                    missing
 void write_picture(const std::string& svg, const std::filesystem::path& place,
                    const PictureFileOptions& options);
 

@@ -37,8 +37,8 @@ class Svg {
   /// @param title  for screen readers and tabs of browsers
   Svg(double width, double height, std::string_view title);
 
-  /// Prints the picture this large, such as "85mm" by "60mm", instead of a pixel as one of a
-  /// screen.
+  /// Prints the picture this large, such as "85mm" by "60mm", instead of with its pixels as those
+  /// of a screen.
   void set_size(std::string width, std::string height);
 
   void rectangle(Pixel corner, double width, double height, std::string_view fill);

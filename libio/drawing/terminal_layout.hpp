@@ -7,7 +7,7 @@
 
 namespace whirl::inline io {
 
-/// A side view of the rotor for the terminal: shaft, disks, and what is where below.
+/// A side view of the rotor for the terminal: shaft and disks, and below them what is where.
 /// @param columns  width of the drawing
 std::string draw_layout(const Model& model, const Assembler& assembler, int columns = 72);
 

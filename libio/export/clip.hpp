@@ -10,7 +10,7 @@
 namespace whirl::inline io {
 
 struct ClipOptions {
-  std::optional<long> mode{};    ///< its number from 1; left out: the motion, without one mode 1
+  std::optional<long> mode{};    ///< its number from 1; left out: the motion, or mode 1 if none
   MotionWindow window{};         ///< of a motion; left open: its last four revolutions
   std::optional<long> frames{};  ///< left out: of a motion at most 120, of a mode 60
 };

@@ -12,11 +12,12 @@
 
 namespace whirl::inline io {
 
-/// What each coordinate q_i is: "node 3 x", or several of them where a rigid bearing or link holds
-/// them together.
+/// What each coordinate q_i is: "node 3 x", or several such names where a rigid bearing or link
+/// holds them together.
 std::vector<std::string> coordinate_names(const DofMap& dofs, const Model& model);
 
-/// Where each of them is, that of a body or of an internal shape function NaN [m].
+/// Position of each coordinate along the shaft [m]; NaN for a body and for an internal shape
+/// function.
 std::vector<double> coordinate_places(const DofMap& dofs, const Model& model,
                                       const Assembler& assembler);
 

@@ -14,18 +14,18 @@ namespace whirl::inline io {
 struct MeshFormat {
   std::string_view name;        ///< as meshio calls it
   std::string_view ending;      ///< of its files
-  bool has_lines = true;        ///< takes elements of a shaft; else its surface is written
-  std::string_view group = "";  ///< integer cell data that it makes properties or groups of
+  bool has_lines = true;        ///< takes elements of a shaft; else the surface is written
+  std::string_view group = "";  ///< integer cell data that become properties or groups
 };
 
-/// All of them; VTU needs no meshio.
+/// All formats; VTU needs no meshio.
 const std::vector<MeshFormat>& mesh_formats();
 
 /// The format of a name, or null.
 const MeshFormat* mesh_format(std::string_view name);
 
 /// Writes a mesh: whole, or not at all.
-/// @throws FileError  with what meshio says, or which package it is of
+/// @throws FileError  with what meshio says, or with the package of meshio if that is missing
 void write_mesh(const std::filesystem::path& place, const MeshFormat& format, const RotorMesh& mesh,
                 Replaces replaces);
 

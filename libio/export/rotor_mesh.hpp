@@ -11,7 +11,7 @@
 
 namespace whirl::inline io {
 
-/// Where all points of a scene are displaced to.
+/// Displacements of all points of a scene.
 struct MeshField {
   std::string name;
   Mat motion;  ///< as in VtkFrame
@@ -37,18 +37,16 @@ struct RotorMesh {
 ///
 /// Point data: "node" from 1; "disk", "bearing" and "contact", numbers from 1 of what is there, or
 /// 0, and "seal" of a model that has some; "disk_mass_kg"; of every field the displacement [m]
-/// under its name, and the tilts [rad] with
-/// "_tilt". Cell data: "segment" from 1, the diameters at both ends, "youngs_modulus_pa",
-/// "density_kg_m3"; if there are layers, whose cells lie on those of the shaft, "layer" from 1, 0
-/// of the shaft.
+/// under the field's name, and the tilts [rad] under that name with "_tilt" behind it. Cell data:
+/// "segment" from 1, the diameters at both ends, "youngs_modulus_pa", "density_kg_m3"; if there are
+/// layers, whose cells lie on those of the shaft, "layer" from 1, 0 of the shaft.
 ///
 /// @param group  name of integer cell data with the segment's number; empty: none
 /// @throws ModelError  if the model has no shaft
 RotorMesh line_mesh(const Model& model, const Assembler& assembler,
                     const std::vector<MeshField>& fields, const std::string& group);
 
-/// The surface of shaft and disks, of disks whose size is given. Cell data: "part", 0 shaft, 1
-/// disk.
+/// The surface of the shaft, and of disks whose size is given. Cell data: "part", 0 shaft, 1 disk.
 RotorMesh surface_mesh(const VtkScene& scene, const std::vector<MeshField>& fields);
 
 /// VTK's format of unstructured grids, as text.

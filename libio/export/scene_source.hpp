@@ -28,15 +28,17 @@ struct SceneSource {
   bool has_modes() const { return !result || result->has("/modes"); }
 
   /// The samples of a stretch of the motion.
-  /// @param usual        revolutions at the end that are meant where the window leaves that open
-  /// @throws ModelError  if they were not recorded
+  /// @param usual        how many revolutions at the end are meant where the window leaves that
+  ///                     open
+  /// @throws ModelError  if these samples were not recorded
   MotionSamples samples(const MotionWindow& window, double usual) const;
 
-  /// Those samples, evenly thinned to a number of frames.
+  /// The motion at samples, evenly thinned to a number of frames.
   /// @throws ModelError  if the motion is of another rotor than the model as set
   std::vector<VtkFrame> motion(const MotionSamples& samples, long most) const;
 
-  /// Calls for every mode at the operating speed with its number from 1, itself and a cycle of it.
+  /// Calls `use` for every mode at the operating speed: with the mode's number from 1, the mode,
+  /// and the frames of one cycle.
   void each_mode(
       long count, int frames,
       const std::function<void(int, const Mode&, const std::vector<VtkFrame>&)>& use) const;

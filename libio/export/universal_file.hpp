@@ -16,14 +16,14 @@ namespace whirl::inline io {
 /// or, where they are not to six digits, written one by one as E13.5, which is all that the format
 /// has. Undamped resonances, where responses are NaN, are left out. The speed is the value of the z
 /// axis [rpm]. Nodes are numbered as in results, bodies behind them; forward and backward motions
-/// and probes have no direction in the format (0, a scalar), and the name of theirs. Tilts are in
+/// and probes have no direction in the format (0, a scalar), but stand there by name. Tilts are in
 /// rad.
 ///
 /// @source [UniversalFile58]
 std::string universal_text(const FrequencyResponse& found, const Model& model,
                            const Assembler& assembler);
 
-/// Writes it; a universal file that this program wrote is replaced.
+/// Writes a universal file; one that this program wrote is replaced.
 /// @throws FileError  if the file cannot be written
 void write_universal(const std::filesystem::path& place, const FrequencyResponse& found,
                      const Model& model, const Assembler& assembler, Replaces replaces);

@@ -26,7 +26,7 @@ struct VideoOptions {
   Replaces replaces = Replaces::own_pictures;
 };
 
-/// Checks that a video can be put there, before the work.
+/// Checks, before the work, that a video can be put at its place.
 /// @throws ModelError  for another ending
 /// @throws FileError   as FileReplacement
 void require_video_place(const VideoOptions& options);
@@ -34,7 +34,7 @@ void require_video_place(const VideoOptions& options);
 /// Draws a video, on a display of its own where there is none; its files are replaced one by one,
 /// each as a whole.
 /// @return  the files, in the order of their names
-/// @throws FileError  if it cannot be drawn or written; says which program is missing
+/// @throws FileError  if the video cannot be drawn or written; names a program that is missing
 std::vector<std::filesystem::path> write_video(const VtkScene& scene,
                                                const std::vector<VtkFrame>& frames,
                                                const VideoOptions& options);

@@ -24,12 +24,12 @@ struct VtkDisk {
   double outer_radius = 0.0;  ///< [m]
   double inner_radius = 0.0;  ///< [m]
   double width = 0.0;         ///< [m]
-  std::string not_given{};    ///< what is a symbol of it: "size", "diameter" or "width"
+  std::string not_given{};    ///< "size", "diameter" or "width", drawn as a symbol
 };
 
 /// A ring around the rotor, or a plate beside it, fixed or moving with a body.
 ///
-/// Its distance from the rotor is drawn as much enlarged as the displacements, so that the surfaces
+/// The distance from the rotor is drawn as much enlarged as the displacements, so that the surfaces
 /// touch on the screen when they touch in the model.
 struct VtkStator {
   std::string name;
@@ -90,9 +90,9 @@ struct VtkOptions {
 ///
 ///   u + theta x r
 ///
-/// and drawn at its undeformed position + deflection scale * displacement. Between its ends the
-/// axis of a shaft piece is the cubic that has their tilts as slopes; tilts are linear between
-/// them.
+/// and drawn at its undeformed position + deflection scale * displacement. The axis of a shaft
+/// piece is the cubic whose slopes at its ends are the tilts there; between the ends tilts are
+/// linear.
 ///
 /// Point data: "displacement [m]" and "rotation [rad]", both true; "undeformed position [m]";
 /// "contact force [N]", at both ends of the lines. Cell data: "part" (0 shaft, 1 disk, 2 stator,

@@ -11,7 +11,7 @@ struct BifurcationCurve {
   BifurcationKind kind{};
   std::string contact;
   double period = 1.0;              ///< [revolutions]
-  std::vector<std::string> ends;    ///< why
+  std::vector<std::string> ends;    ///< why the curve ends there
   std::vector<std::size_t> points;  ///< their numbers among those of all curves
   std::string name{};               ///< "3 grazing of ring"
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Amplitude over phase, and loops, of unbalance responses, of those to forces of other frequencies
+/// Amplitude over phase, and loops, of responses to unbalance and to forces of other frequencies,
 /// and of orders of measurements.
 
 #include "libio/figures/common.hpp"
@@ -11,7 +11,7 @@ struct BodeCurves {
   std::vector<std::string> names;
   CMat a;  ///< curves x speeds [m]; what is not bounded is NaN
   DisplayUnit unit;
-  std::vector<std::string> probes;  ///< those that the curves are of
+  std::vector<std::string> probes;  ///< probes that the curves are of
 };
 
 /// Adds what a probe reads to the curves of its unit.

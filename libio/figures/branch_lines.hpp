@@ -1,5 +1,5 @@
 #pragma once
-/// Lines and marks of branches of periodic orbits, in their own figure and over those of sweeps.
+/// Lines and marks of branches of periodic orbits, in their own figure and over figures of sweeps.
 
 #include <functional>
 
@@ -20,11 +20,11 @@ struct BranchPoints {
   double place(const BranchBifurcation& b) const { return b.value / axis.factor; }
   /// Number of the point before a bifurcation, among those of all branches.
   std::size_t before(const BranchBifurcation& b) const;
-  /// Shows the parameter in the unit of another axis of it.
+  /// Shows the parameter in the unit of another axis that it has.
   void show_as(const ShownAxis& other);
   /// A number of every point.
   std::vector<double> numbers(const std::function<double(const BranchOrbit&)>& number) const;
-  /// One of every point's list of numbers; NaN where it is shorter.
+  /// Number i of every point's list of numbers; NaN where the list is shorter.
   std::vector<double> numbers(std::vector<double> BranchOrbit::*list, std::size_t i) const;
 };
 
@@ -37,8 +37,8 @@ struct BranchStyle {
   bool is_ink = false;  ///< all in one color, over what has colors; else one per branch
 };
 
-/// Lines through a number per point: solid where orbits are stable, dashed where they are not; they
-/// change at the bifurcation between the points.
+/// Lines through a number per point: solid where orbits are stable, dashed where they are not. The
+/// style of a line changes at the bifurcation between the points.
 void add_branch_lines(Panel& p, const BranchPoints& b, const std::vector<double>& y,
                       const BranchStyle& style);
 

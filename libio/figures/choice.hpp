@@ -1,5 +1,5 @@
 #pragma once
-/// What a result can be drawn as, and choosing one of it.
+/// The figures that a result can be drawn as, and the choice of one.
 
 #include <string>
 #include <string_view>
@@ -30,26 +30,28 @@ struct DrawableKinds {
   static constexpr auto columns() { return ColumnList{rows(&DrawableKinds::kinds, "kinds")}; }
 };
 DrawableKinds drawable_kinds(const ResultView& result);
-/// A line each, then the command that draws one.
+/// A line for each kind, then the command that draws a figure.
 /// @param file  of the result
 std::string text_of(const DrawableKinds& all, const std::string& file);
 
 /// A figure of a result that was asked for.
 struct FigureChoice {
   std::string kind;
-  /// Or a part of its name, or a probe that it shows, or that is at its station; empty: the first.
+  /// Name of the variant or a part of it, or a probe that it shows or that is at its station;
+  /// empty: the first variant.
   std::string variant{};
-  std::string with{};  ///< a result to be laid over it; empty: none
+  std::string with{};  ///< a result to be laid over the figure; empty: none
 };
 
-/// The name, if a probe has it: ResultView::probe then draws its readings alone; else empty.
+/// The name, if it is that of a probe, so that ResultView::probe draws its readings alone; else
+/// empty.
 std::string probe_named(const ResultView& result, const std::string& name);
 
-/// The chosen figure, the stretch of a motion being that of the result.
-/// @throws ModelError  naming what there is, if it cannot be drawn so
+/// The chosen figure; of a motion it shows the stretch in ResultView::window.
+/// @throws ModelError  naming what there is, if the result cannot be drawn so
 Figure chosen_figure(const ResultView& result, const FigureChoice& choice);
 
-/// The verb whose results can be drawn as a kind; of a name that is none, "simulate".
+/// The verb whose results can be drawn as a kind; of a name that is no kind, "simulate".
 std::string verb_for(std::string_view kind);
 
 }  // namespace whirl::inline io

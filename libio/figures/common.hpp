@@ -45,14 +45,14 @@ struct ShownAxis {
   std::string si_unit{};
 };
 ShownAxis shown_axis(const ResultView& result, const std::string& path);
-/// Those of a study, with the values that are drawn.
+/// The axes of a study, with the values that are drawn.
 std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view group);
 
-/// A text in a command line with places, as Cells and Curve have them: its own braces are no
-/// places.
+/// A text for a command line with places, as Cells and Curve have it: braces of the text become
+/// ones that are no places.
 std::string without_places(std::string text);
 
-/// A line for a shell that calls a verb on the model of a result, with what was set of it, and with
+/// A line for a shell that calls a verb on the model of a result, with what was set in it, and with
 /// some of the options of the result's own call; places may be added.
 /// @param kept  names of these options, as far as they were given
 std::string command_on_model(const ResultView& result, const std::string& verb,
@@ -66,8 +66,8 @@ std::string set_command(const std::string& paths, const std::string& value,
 
 /// The unit of a probe, and its name with the direction: "DE 1X, 45°".
 DisplayUnit unit_of(const ProbeLabel& probe);
-/// The unit that all probes of a list have; else that in which the largest of their readings [m]
-/// reads well.
+/// The unit that all probes of a list have; else the unit in which the largest of their readings
+/// [m] reads well.
 template <class Probes>
 DisplayUnit unit_of(const Probes& probes, double largest) {
   const bool is_one = !probes.empty() && std::all_of(probes.begin(), probes.end(), [&](auto& p) {
@@ -77,10 +77,10 @@ DisplayUnit unit_of(const Probes& probes, double largest) {
 }
 std::string probe_name(const ProbeLabel& probe);
 
-/// Position of the first number along a title of an axis with a unit: "x [mm]".
+/// The title of an axis with its unit: "x [mm]".
 std::string with_unit(const std::string& what, const DisplayUnit& unit);
 
-/// Whether a label of the trajectory ("7 ring") is of a station of the model.
+/// Whether a label of the trajectory ("7 ring") is that of a station of the model.
 /// @pre  the result has a model and an assembler
 bool is_at(const ResultView& result, const Station& station, const std::string& label);
 /// The contact at a station of the trajectory ("7 ring"), as its number; -1 if there is none.
@@ -94,14 +94,16 @@ std::vector<Eigen::Index> deflection_peaks(const Mat& magnitude);
 
 /// A circle of 181 points.
 Curve circle(const std::string& name, double radius, double x = 0.0, double y = 0.0);
-/// A line across a direction, so far from a point and so long to both sides.
+/// A line across a direction, at a distance from a point, and of a length to both sides.
 Curve line_across(const std::string& name, const Vec2& direction, double distance, double length,
                   const Vec2& from = Vec2::Zero());
 
-/// The dots of a path in time, one a revolution; none is in it yet.
+/// A curve for the dots of a path in time, one a revolution; it has no dots yet.
 Curve dots_of_revolutions();
-/// Gives an axis a range where its values are one but for rounding, which would be drawn large.
-/// @param room  to both sides of them; values that are farther apart have the range that they need
+/// Gives an axis a range if its values are equal but for rounding, which would be drawn large
+/// otherwise.
+/// @param room  to both sides of the values; values that are farther apart have the range that they
+///              need
 void keep_room(FigureAxis& axis, const std::vector<double>& values, double room);
 
 /// Names of the stations that the motion of a result was recorded at; none without a motion.
@@ -116,11 +118,12 @@ struct Motion : RecordedMotion {
   std::vector<std::string> stations;  ///< their names
   MotionWindow window;
 
-  /// What is seen at first, so many of the last revolutions if nothing else was asked for.
+  /// The samples that are seen at first: the last `revolutions` if no window was asked for.
   MotionSamples shown(double revolutions) const;
-  /// What curves are made of: the same if it was asked for, else all, to be moved along.
+  /// The samples that curves are made of: those of a window that was asked for, else all, so that
+  /// the view can be moved along them.
   MotionSamples drawn(double revolutions) const;
-  /// Says what is seen at first; nothing where it is all.
+  /// Says what is seen at first; nothing where all is seen.
   std::vector<std::string> notes(double revolutions) const;
 
   Eigen::Index size() const { return time.size(); }

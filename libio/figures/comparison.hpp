@@ -1,6 +1,6 @@
 #pragma once
-/// Several results side by side: figures of one kind drawn over each other, and what their models
-/// differ in.
+/// Several results side by side: figures of one kind drawn over each other, and how the models
+/// differ.
 
 #include <memory>
 #include <string>
@@ -13,8 +13,8 @@ namespace whirl::inline io {
 /// What tells results apart in a comparison: names of their files as far as they differ.
 std::vector<std::string> names_of(const std::vector<std::unique_ptr<ResultView>>& results);
 
-/// One figure with the curves of several of one kind and variant; a color is a result, dashes and
-/// markers mean what they do in each. Axes are in the units of the first.
+/// One figure with the curves of several of one kind and variant; a color stands for a result,
+/// dashes and markers mean what they do in each figure. Axes are in the units of the first.
 ///
 /// @param figures  one per name
 /// @return         nothing where they cannot be drawn over each other: cells, several panels of

@@ -17,13 +17,13 @@ struct DrawnPoints {
 };
 
 /// The points of a study that are drawn, by the shape of its datasets.
-/// @param is_sweep  its first dimension are the ways along the values
+/// @param is_sweep  whether the first dimension is that of the ways along the values
 CoarseGrid drawn_grid(const std::vector<std::size_t>& shape, bool is_sweep,
                       const DrawnPoints& most = {});
 /// The same of the study that a file has as a group.
 CoarseGrid drawn_grid(const ResultReader& file, std::string_view group);
 
-/// What a figure of it says where not all points are drawn; else empty.
+/// What a figure of such a study says if not all points are drawn; else empty.
 std::string coarseness(const ResultReader& file, std::string_view group);
 
 /// Values along an axis of a study that are drawn.

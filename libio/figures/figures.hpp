@@ -34,7 +34,7 @@ struct ResultView {
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
   DisplayUnit frequency{"Hz", 1.0 / hertz};  ///< of frequency axes; speeds are in rpm
   MotionWindow window;  ///< of motions that are drawn in time; left open: their end
-  std::string probe{};  ///< name of the only one whose readings are drawn; empty: all of them
+  std::string probe{};  ///< name of the only probe whose readings are drawn; empty: all
   /// Results that were read of the file, by their types: see result_of.hpp.
   mutable std::unordered_map<std::type_index, std::shared_ptr<const void>> known{};
 };
@@ -48,7 +48,7 @@ struct FigureKind {
   std::string_view title;  ///< "Bode", above its card on a page
   std::string_view summary;
   Subject subject = Subject::numbers;
-  std::vector<std::string> needs{};  ///< datasets, see dataset_of(); it draws nothing without one
+  std::vector<std::string> needs{};  ///< datasets, all of which are needed, see dataset_of()
   bool needs_model = false;
   std::vector<Figure> (*make)(const ResultView&) =
       nullptr;                ///< the most telling one first; may be none
@@ -74,8 +74,7 @@ std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result)
 std::string lay_over(std::vector<Figure>& figures, const ResultView& study, const ResultView& over,
                      const std::string& name);
 
-/// Values other than those that are varied in which the models of two results differ, by their
-/// paths.
+/// Paths of the values in which the models of two results differ, without those that are varied.
 std::vector<std::string> other_values(const ResultView& study, const ResultView& over);
 
 }  // namespace whirl::inline io

@@ -40,7 +40,7 @@ struct Planes {
 /// What a point of a study may be: periodic motions by their period, others by their kind.
 const std::vector<Category>& motions();
 
-/// Which of motions() it is.
+/// Number of a motion among motions().
 double motion_number(std::optional<MotionKind> kind, int period);
 
 }  // namespace whirl::inline io::figures

@@ -17,13 +17,14 @@ const Probe* probe_of(const ResultView& result, const std::string& name);
 /// What the probes of a result read in time; none without probes.
 std::vector<Figure> probe_histories(const ResultView& result);
 
-/// Spectra of what they read, peak to peak, a figure for each of their units.
+/// Spectra of what the probes of a result read, peak to peak, a figure for each unit of probes.
 std::vector<Figure> probe_spectra(const ResultView& result);
 
-/// What they read once a revolution, in time and from one to the next, a figure each.
+/// What the probes of a result read once a revolution, in time and from one revolution to the next,
+/// a figure for each probe.
 std::vector<Figure> probe_sections(const ResultView& result);
 
-/// Probes at a recorded station of the trajectory ("7 left bearing").
+/// Probes at a recorded station of the trajectory ("7 left bearing"), without axial ones.
 std::vector<Probe> probes_at(const ResultView& result, const std::string& station);
 
 /// Where probes stand around an orbit of a size [m], seen from the ground.

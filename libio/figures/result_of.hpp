@@ -10,7 +10,7 @@
 
 namespace whirl::inline io::figures {
 
-/// What the file holds of a result; members that it is without are as in a new struct.
+/// What the file holds of a result; members that the file is without are as in a new struct.
 /// @return  valid as long as the view
 template <HasGroup T>
 const T& result_of(const ResultView& view) {
@@ -19,7 +19,7 @@ const T& result_of(const ResultView& view) {
   return *static_cast<const T*>(known.get());
 }
 
-/// The same of a study, of whose points those are read that are drawn.
+/// The same of a study, of which only those points are read that are drawn.
 template <class Study>
 const Study& study_of(const ResultView& view) {
   std::shared_ptr<const void>& known = view.known[typeid(Study)];

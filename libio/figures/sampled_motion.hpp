@@ -9,7 +9,7 @@ namespace whirl::inline io::figures {
 
 /// Degrees of freedom of the model of a motion.
 /// @pre  the result has a model
-/// @throws FileError  if the motion is of another number of them
+/// @throws FileError  if the motion has another number of degrees of freedom
 const DofMap& dofs_of(const ResultView& result, const MotionRecord& record);
 
 /// Motion of a point at all samples: x, y [m], theta_x, theta_y [rad] in columns; zero where the

@@ -21,10 +21,11 @@ struct ShaftShapes {
 /// @throws FileError  for vectors that are not of the nodes of the result
 ShaftShapes shaft_shapes(const ResultView& result, const CMat& full);
 
-/// The axis of positions along these, with a little room at both ends.
+/// The axis of positions along the shapes, with a little room at both ends.
 FigureAxis shaft_axis(const ShaftShapes& shapes);
 
-/// The factor that makes the largest entry real and one of size; 0 for nothing.
+/// The factor of size one that makes the largest entry real and positive; 0 if all entries are
+/// zero.
 Complex turn_of(const CVec& values);
 
 }  // namespace whirl::inline io::figures

@@ -16,7 +16,7 @@ SweepWayStyle way_style(const std::string& direction);
 /// A number of a station or probe; NaN where there is none.
 double number_of(const Mat& m, std::size_t row, std::size_t column);
 
-/// Its points are way after way, each in the order of the values.
+/// A sweep whose points are way after way, those of each way in the order of the values.
 struct SweepView {
   explicit SweepView(const ResultView& result);
 
@@ -26,7 +26,7 @@ struct SweepView {
   std::vector<std::string> ways, stations;
   std::size_t sections = 0;  ///< of a station
 
-  /// Null where it is not computed.
+  /// A point; null where it is not computed.
   const SweepPoint* point(std::size_t i) const {
     return i < points.size() && points[i] ? &*points[i] : nullptr;
   }

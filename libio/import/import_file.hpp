@@ -15,7 +15,7 @@ struct Imported {
   Model model;                                 ///< as it is read from the written files
   std::vector<std::string> files;              ///< the model's first
   std::vector<std::string> left_out;           ///< what the model does not have
-  std::vector<std::string> taken_differently;  ///< what means something else there
+  std::vector<std::string> taken_differently;  ///< what means something else in the model
 };
 
 /// Writes a rotor saved by ROSS, TOML or JSON, as a model, and its tables beside it.

@@ -1,5 +1,5 @@
 #pragma once
-/// JSON as a tree with places, the one that TOML is read into.
+/// JSON as a tree with places, the same kind of tree that TOML is read into.
 
 #include <string>
 

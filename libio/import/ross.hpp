@@ -23,7 +23,7 @@ struct RossElement {
   double nu = 0.0;                                 ///< Poisson's ratio
   double mass_damping = 0.0, stiffness_damping = 0.0;  ///< alpha [1/s], beta [s]
 
-  /// Whether it goes on as another one does.
+  /// Whether both are parts of one uniform stretch: no cones, and equal in all but their places.
   bool is_like(const RossElement& other) const;
 };
 
@@ -32,7 +32,7 @@ struct RossMaterial {
   double rho = 0.0, E = 0.0, G = 0.0;  ///< [kg/m^3], [Pa], [Pa]
 };
 
-/// A disk, or a point mass on the shaft.
+/// A disk, or a gear.
 struct RossDisk {
   std::string name;
   int node = 0;
@@ -61,7 +61,7 @@ struct RossBearing {
   bool is_seal = false;
   int node = 0, link = -1;  ///< where it is, and what it is fixed to; -1: the ground
   bool has_speed = false, has_whirl = false;
-  std::vector<Row> rows;  ///< one of constant coefficients
+  std::vector<Row> rows;  ///< one row if the coefficients are constant
 };
 
 /// A coupling: springs between two nodes with a mass at each.
@@ -92,7 +92,7 @@ struct RossRotor {
   double mass_damping = 0.0,
          stiffness_damping = 0.0;              ///< of the whole rotor: alpha [1/s], beta [s]
   std::vector<double> damping_ratios;          ///< of the first modes
-  double default_ratio = 0.0;                  ///< of the others
+  double default_ratio = 0.0;                  ///< damping ratio of the other modes
   std::vector<std::string> left_out;           ///< a sentence each
   std::vector<std::string> taken_differently;  ///< likewise
 };
@@ -101,7 +101,7 @@ struct RossRotor {
 ///
 /// @param root  tree of a file, TOML or JSON
 /// @throws ModelError  with the places of all problems: no rotor of ROSS, a value that is missing
-///                     or none, tables of unequal length
+///                     or not valid, tables of unequal length
 RossRotor read_ross(const ConfigNode& root);
 
 }  // namespace whirl::inline io

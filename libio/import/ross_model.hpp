@@ -18,14 +18,14 @@ struct ImportedModel {
   std::string text;  ///< of the model file
   std::vector<ImportedTable> tables;
   std::vector<std::string> left_out;           ///< what the model does not have, a sentence each
-  std::vector<std::string> taken_differently;  ///< and what means something else there
+  std::vector<std::string> taken_differently;  ///< what means something else in the model
 };
 
-/// Writes a rotor as a model. Nodes keep their order, from 1: one of ROSS has a number less. Equal
-/// elements beside one another become one segment of several, equal layers one layer.
+/// Writes a rotor as a model. Nodes keep their order and are counted from 1, those of ROSS from 0.
+/// Equal elements beside one another become one segment of several, equal layers one layer.
 ///
-/// Shear coefficients of ROSS's Hutchinson are written as numbers, since it has 1 + nu where
-/// [Hutchinson2001] has its square:
+/// Shear coefficients of ROSS's Hutchinson are written as numbers, since ROSS has 1 + nu where
+/// [Hutchinson2001] has (1 + nu)^2:
 ///
 ///   kappa = 6 (1 + r^2)^2 (1 + nu)
 ///           / ((1 + r^2)^2 (7 + 12 nu + 4 nu^2) + 4 r^2 (5 + 6 nu + 2 nu^2))
@@ -34,8 +34,8 @@ struct ImportedModel {
 ///
 /// @param source  name of the file that it was read from
 /// @param stem    what names of tables begin with
-/// @throws ModelError  if shaft elements leave nodes out, or a layer is not as long as what it is
-///                     on
+/// @throws ModelError  if shaft elements leave nodes out, or a layer is not as long as the element
+///                     that it lies on
 ImportedModel model_of(const RossRotor& rotor, const std::string& source, const std::string& stem);
 
 }  // namespace whirl::inline io

@@ -1,5 +1,5 @@
 #pragma once
-/// Units of channels, of which voltages are none of a model's.
+/// Units of channels, among them voltages, which models do not have.
 
 #include <optional>
 #include <string>
@@ -17,10 +17,10 @@ struct ChannelUnit {
   double factor = 1.0;  ///< from the unit as written
 };
 
-/// What a text means: lengths are in m, voltages in V; whatever else stays as it is.
+/// The unit that a text means: m for lengths, V for voltages; any other unit stays as it is.
 ChannelUnit channel_unit(std::string_view text);
 
-/// A number in the unit of a channel, "-5 V", "0.5"; nothing: it is none.
+/// A number in the unit of a channel, "-5 V", "0.5"; nothing: the text is no such number.
 std::optional<std::pair<double, ChannelUnit>> channel_value(std::string_view text);
 
 /// A gain: "7.87 V/mm", "-8 mV/um", "200 mV/mil"; "0.787 1/mm" of channels without unit; a plain

@@ -20,17 +20,17 @@ struct CsvLine {
 inline constexpr std::array csv_delimiters{Delimiter::semicolon, Delimiter::tab, Delimiter::bar,
                                            Delimiter::comma, Delimiter::blanks};
 
-/// "Sample rate: 5 kHz", "fs = 5000": the rate of a line of a header [1/s]; 0: it says none.
+/// "Sample rate: 5 kHz", "fs = 5000": the rate of a line of a header [1/s]; 0: the line says none.
 double csv_rate_in(std::string_view line);
 
 struct CsvHeader {
-  std::vector<std::string> names, units;  ///< of channels; "": it says none
-  double rate = 0.0;                      ///< [1/s]; 0: it says none
+  std::vector<std::string> names, units;  ///< of channels; "": the header says none
+  double rate = 0.0;                      ///< [1/s]; 0: the header says none
   bool has_names = false;                 ///< else all names are empty
 };
 
-/// Reads the lines above the numbers: the last one with a cell per channel names them, and one
-/// below that has units alone says these.
+/// Reads the lines above the numbers: the last line with a cell per channel names the channels, and
+/// a line below it with units alone says their units.
 ///
 /// @param count              of channels
 /// @param may_have_one_more  words behind the numbers may have a name, too

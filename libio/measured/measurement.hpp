@@ -10,14 +10,14 @@
 
 namespace whirl::inline io {
 
-/// Where a measurement is.
+/// The files of a measurement, and what they do not say.
 struct RecordSource {
   std::string file;                 ///< of the record
-  std::string probes{};             ///< file of its probes; empty: they are those of the model
+  std::string probes{};             ///< file of its probes; empty: the probes of the model
   std::optional<double> rate{};     ///< where the record does not say it [1/s]
-  bool has_speed = false;           ///< whether somebody said the model's speed for this record
+  bool has_speed = false;           ///< whether the model's speed was given for this record
   std::vector<std::string> sets{};  ///< "PATH=VALUE" of the model, for this record
-  Where sets_from{};                ///< where a list of records says them; empty: nowhere
+  Where sets_from{};                ///< place of `sets` in a list of records; empty: in none
 };
 
 /// A record, and where it is from.
@@ -54,7 +54,7 @@ Model model_for(const Model& model, const RecordSource& source);
 ///   probes  file of its probes; left out, the one that all have
 ///   speed   where there is no key-phasor
 ///   rate    samples per second, where the record does not say it
-///   set     values of the model that are others then, ["disk.fan.unbalance=200g.mm"]
+///   set     values of the model that differ in this record, ["disk.fan.unbalance=200g.mm"]
 ///
 /// @param source  the file, and what holds where a record of the list says nothing
 /// @throws ModelError, FileError  with every problem found in the list, and for what is wrong with

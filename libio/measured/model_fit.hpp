@@ -11,7 +11,7 @@ namespace whirl::inline io {
 
 /// Which part of a record counts.
 struct FitWindow {
-  double from = 0.0;          ///< revolutions before it
+  double from = 0.0;          ///< revolutions of the record before the window
   double revolutions = 20.0;  ///< at most; 0: all that there are
 };
 
@@ -19,7 +19,7 @@ struct FitWindow {
 struct FittedMotion {
   std::string record;  ///< name of the file of its record
   Model model;         ///< with the values that were found
-  Scene scene;         ///< of it
+  Scene scene;         ///< of the model
   MotionState start;   ///< at the first time that counts
 };
 

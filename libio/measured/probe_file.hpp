@@ -12,7 +12,7 @@ namespace whirl::inline io {
 /// Reads a file of probes: [[probe]] as models have it, with `channel` (its name or number; left
 /// out, the name of the probe), `gain` and `full_scale`, and [keyphasor].
 ///
-/// @param model  whose stations they are at
+/// @param model  whose stations the probes are at
 /// @throws ModelError  with every problem found and its place in the file
 MeasurementSetup read_probe_file(const std::filesystem::path& path, const Model& model);
 

@@ -14,7 +14,7 @@ namespace whirl::inline io {
 
 /// A channel as it stands in a file.
 struct RawChannel {
-  std::string name;    ///< empty: the file says none, and it has its number among the channels
+  std::string name;    ///< empty: none in the file; it becomes the channel's number
   std::string unit{};  ///< as it is written
   std::vector<double> samples;
   Where where{};  ///< for messages
@@ -25,7 +25,7 @@ struct RawRecord {
   std::vector<RawChannel> channels;
   std::optional<double> rate{};      ///< where the file says it [1/s]
   double start = 0.0;                ///< [s]
-  bool has_own_times = false;        ///< no channel is one of times, whatever its name
+  bool has_own_times = false;        ///< the format says times itself: no channel is one of times
   std::vector<std::string> notes{};  ///< what was taken for granted, in words
 };
 
@@ -44,12 +44,13 @@ void travel(Bytes& bytes, Is<RawRecord> auto& record) {
 /// Share of a step that times may be off.
 constexpr double even_to = 0.1;
 
-/// Makes a record of channels of equal length: lengths in m, voltages in V. Without a rate the
-/// channel named time, or t, or else the first one in a unit of time says it, whose steps must be
-/// even to a tenth. Where it jumps by several of them the samples between are NaN.
+/// Makes a record of channels of equal length: lengths in m, voltages in V. Without a rate, the
+/// channel named time, or t, or else the first channel in a unit of time says it; the steps of that
+/// channel must be even to a tenth. Where its times jump by several steps, the samples between are
+/// NaN.
 ///
-/// @param rate  for files that say neither, or with more digits than theirs; nothing: nobody knows
-///              [1/s]
+/// @param rate  for files that say neither a rate nor times, or with more digits than the file has;
+///              nothing: not known [1/s]
 /// @throws ModelError  for a rate that is not that of the file, for times that do not ascend
 ///                     evenly, for channels of different lengths, without any, or where nothing
 ///                     says the rate

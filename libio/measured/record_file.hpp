@@ -22,13 +22,13 @@ namespace whirl::inline io {
 /// @throws FileError   for a file that cannot be read
 MeasuredRecord read_record(const std::filesystem::path& path, std::optional<double> rate = {});
 
-/// Writes a record, which read_record reads; of WAV names and units are a comment.
+/// Writes a record, which read_record reads; in WAV files names and units are a comment.
 /// @throws FileError  if the file cannot be written, as WAV with a rate that is no whole number
 void write_record(const std::filesystem::path& path, const MeasuredRecord& record,
                   Replaces replaces);
 
-/// Looks at the ending alone, before there is anything to write.
-/// @throws ModelError  if a file has none of them
+/// Checks that the ending of a file is one of these formats, before there is anything to write.
+/// @throws ModelError  if the file has another ending
 void require_record_ending(const std::filesystem::path& path);
 
 }  // namespace whirl::inline io

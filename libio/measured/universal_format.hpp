@@ -7,10 +7,10 @@ namespace whirl::inline io::universal {
 
 constexpr std::string_view universal_record_head = "    -1\n   164\n         1whirl: SI (m, N)";
 constexpr std::string_view block_mark = "    -1";
-/// Begins the second line of datasets that this program writes: steps of time have six digits
-/// there.
+/// Begins the second line of datasets that this program writes, which says the rate: steps of time
+/// have only six digits in the format.
 constexpr std::string_view rate_mark = "sample rate [Hz]: ";
-constexpr double step_digits = 1e-5;  ///< relative, to which a step says what a rate is
+constexpr double step_digits = 1e-5;  ///< relative error of a rate that a step of time says
 
 /// Numbers of the format.
 struct RecordCode {

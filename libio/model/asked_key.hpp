@@ -11,7 +11,7 @@ namespace whirl::inline io {
 /// A key that was asked for, and a way in which its value may be written or must be there.
 struct AskedKey {
   enum class Form {
-    known,     ///< any; other entries with its path say which
+    known,     ///< of any form; other entries with its path say which
     quantity,  ///< a number or a text with a unit
     pair,      ///< a list of two quantities
     list,      ///< a list of one or more quantities
@@ -22,14 +22,14 @@ struct AskedKey {
     table,    ///< with entries of its own
     limit,    ///< `most` of an integer
     field,    ///< `meaning` and `otherwise` of a field
-    missing,  ///< it is needed, or another one of `names` (last parts of paths)
+    missing,  ///< one of `names` (last parts of paths) is needed
   };
   Form form = Form::known;
   std::string path{};                ///< of the key, as in messages: contact.1.stiffness
   std::string unit{};                ///< SI unit of quantities
   Range range = Range::any;          ///< of quantities and integers
   long most = 0;                     ///< of integers
-  std::vector<std::string> names{};  ///< of choices; of a missing key, itself among them
+  std::vector<std::string> names{};  ///< of choices; of a missing key, its own among them
   std::string meaning{};             ///< half a sentence
   std::string otherwise{};           ///< what holds if it is left out, as it would be written
 };

@@ -19,8 +19,8 @@ namespace whirl::inline io {
 /// over both may come in any order. See table_lines for names in a comment.
 ///
 /// @param file      for messages
-/// @param problems  receives what is wrong, with its place; what is so in many rows once
-/// @param doubts    receives what is right and seldom meant, as a missing kyy; null: nobody asks
+/// @param problems  receives what is wrong, with its place; a problem of many rows only once
+/// @param doubts    receives what is right and seldom meant, as a missing kyy; null: not wanted
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
                                      std::vector<Problem>& problems,
                                      std::vector<Problem>* doubts = nullptr);

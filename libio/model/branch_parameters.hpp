@@ -25,7 +25,7 @@ struct BranchParameters {
   std::optional<BranchParameter> across{};
   std::shared_ptr<const ModelFamily> family{};
 
-  /// At the first value of the second parameter.
+  /// The model at a value of the first parameter and the first value of the second one.
   Model model(double first) const { return model(first, across ? across->range.first : 0.0); }
   Model model(double first, double second) const { return family->model(values(first, second)); }
   std::shared_ptr<const Scene> scene(double first) const {
@@ -33,8 +33,8 @@ struct BranchParameters {
   }
   /// @throws NumericalError  where there is no such model
   std::shared_ptr<const Scene> scene(double first, double second) const;
-  /// The value of the second parameter, as --set takes it, a line for every path; empty: there is
-  /// none.
+  /// The first value of the second parameter, as --set takes it, a line for every path; empty:
+  /// there is no second parameter.
   std::string fixed() const;
 
  private:

@@ -18,16 +18,16 @@ struct BranchSetup {
   BranchParameters parameters;
   BranchTreeOptions tree;
   Model at_first;                      ///< the model at the first value
-  std::shared_ptr<const Scene> scene;  ///< of that
-  std::vector<std::string> stations;   ///< names of those that are measured
-  int threads = 1;                     ///< of this process that follow them
+  std::shared_ptr<const Scene> scene;  ///< of at_first
+  std::vector<std::string> stations;   ///< names of the stations that are measured
+  int threads = 1;                     ///< of this process that follow branches
 
   bool has_curves() const { return parameters.across.has_value(); }
   BranchStudyOptions options() const;
   BranchScenes scenes() const;
 
   BranchResult result(const BranchTree& found) const;
-  /// With a second parameter only.
+  /// Only if there is a second parameter.
   CurveResult result(const BifurcationCurves& found) const;
 };
 
@@ -36,7 +36,7 @@ struct TorusSetup {
   std::optional<BranchParameters> parameters{};
   TorusOptions options{};
   Model at_first{};                    ///< the model at the first value
-  std::shared_ptr<const Scene> scene;  ///< of that
+  std::shared_ptr<const Scene> scene;  ///< of at_first
 
   ParameterScenes scenes() const;
   TorusResult result(const TorusBranch& torus) const;

@@ -55,12 +55,12 @@ void set_value(ConfigNode& root, std::string_view assignment);
 
 /// The value at a path as set_value takes one.
 ///
-/// @throws ModelError  if there is none, saying what is there instead
+/// @throws ModelError  if there is no such value, saying what is there instead
 const ConfigNode& value_at(ConfigNode& root, std::string_view path);
 
 /// A text between quotation marks, as TOML has it.
 std::string toml_text(std::string_view text);
-/// A key: bare, if it may be.
+/// A key as TOML has it: without quotation marks if it needs none.
 std::string toml_key(std::string_view key);
 /// The tree as TOML.
 std::string to_toml(const ConfigNode& root);

@@ -20,7 +20,7 @@ struct ColumnKind {
   bool is_text = false;                 ///< words, no numbers
   std::vector<std::string> synonyms{};  ///< other names of it, as plain_name has them
   std::string problem{};                ///< what is wrong if it is there; empty: nothing
-  std::string unit_problem{};           ///< what is wrong if it has a unit; of words
+  std::string unit_problem{};           ///< what is wrong if words have a unit
 };
 
 /// A line of a table. A cell that is empty or wrong is left out.
@@ -47,12 +47,12 @@ struct DelimitedTable {
 ///
 /// Capitals, blanks, "_", "-" and "." in column names do not count: "O.D. left [mm]" is od_left in
 /// mm. Units stand in [...] or (...), behind a blank, or in a line of their own below the names.
-/// Without one numbers are SI; a number may have a unit of its own. Commas, semicolons or tabs
+/// Without a unit numbers are SI; a number may have a unit of its own. Commas, semicolons or tabs
 /// delimit; where commas do not, decimals may have them. See table_lines for names in a comment.
 ///
 /// @param file      for messages
 /// @param kinds     columns that are known
-/// @param problems  receives what is wrong, with its place; what is so in many rows once
+/// @param problems  receives what is wrong, with its place; a problem of many rows only once
 DelimitedTable parse_delimited(const std::string& text, const std::string& file,
                                const std::vector<ColumnKind>& kinds,
                                std::vector<Problem>& problems);

@@ -19,13 +19,13 @@ struct FreeParameters {
 /// Reads PATH, PATH=LOW:HIGH, ... : values of models, with the bounds that they must stay within.
 ///
 /// A search begins at a model's own value, or in the middle of the bounds where that is zero or not
-/// in the model. Numbers without unit are SI. Of several models each has those of the list that
-/// stand in its file.
+/// in the model. Numbers without unit are SI. Of several models each takes those values of the list
+/// that stand in its file.
 ///
 /// @param models  with the texts that they were read from
 /// @return        of each model
-/// @throws ModelError  for a path that is twice there, one that no model has, one without bounds
-///                     that has no number in its model, and for bounds that are none
+/// @throws ModelError  for a path that stands there twice, a path that no model has, a path without
+///                     bounds that has no number in its model, and for bounds that are not valid
 std::vector<FreeParameters> free_parameters(const std::vector<Model>& models,
                                             const std::string& list);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What is meant by a key whose table is left out.
+/// Which value is meant by a key without its table.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace whirl::inline io {
 
-/// Knows what is meant by a key alone, without the tables that it is in.
+/// Throws if a key alone, without the tables that it is in, means a value of a model.
 /// @param root   of a model
 /// @param asked  the path that begins with the key
-/// @throws ModelError  that says the path of the value, or several; it returns where nobody knows
+/// @throws ModelError  that says the path of the value, or several paths that may be meant
 void throw_if_meant(const ConfigNode& root, const std::string& key, const std::string& asked,
                     const Where& where);
 

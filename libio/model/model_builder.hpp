@@ -21,13 +21,13 @@ namespace whirl::inline io {
 /// Builds a model from the tree of a file, collecting all problems.
 class ModelBuilder {
  public:
-  /// @param asked  receives every key that is asked for; null: nobody wants to know
+  /// @param asked  receives every key that is asked for; null: not wanted
   ModelBuilder(const ConfigNode& root, NamedFiles files, std::vector<AskedKey>* asked = nullptr);
 
   /// @throws ModelError  with every problem found
   Model build();
-  /// The model again, where since `base` only contacts, the speed and the start were changed in
-  /// the tree, and no contact has moved: the rotor is not read again.
+  /// The model again, without reading the rotor again: since `base` only contacts, the speed and
+  /// the start may have been changed in the tree, and no contact may have moved.
   ///
   /// @throws ModelError  likewise
   Model rebuild(const Model& base);
@@ -39,9 +39,9 @@ class ModelBuilder {
     std::string key;       ///< which named the file
     std::string text;
   };
-  /// Those that build() read: a model that is stored has them in it.
+  /// The tables that build() read; a model that is stored has them in it.
   const std::vector<Table>& tables() const { return tables_; }
-  /// What is right in them and seldom meant.
+  /// What in these tables is right and seldom meant.
   const std::vector<Problem>& doubts() const { return doubts_; }
 
  private:
@@ -61,7 +61,7 @@ class ModelBuilder {
   std::optional<Station> station(TableReader& table, const std::vector<std::string>& instead = {});
   std::optional<Station> named_station(const std::string& name, TableReader& table,
                                        std::string_view key, bool may_be_ground = true);
-  /// A text that a key names by its file, or that stands there itself.
+  /// A text that a key names by its file, or that stands at the key itself.
   struct NamedText {
     std::string name;  ///< for messages
     std::string text;
@@ -91,7 +91,7 @@ class ModelBuilder {
   std::vector<std::string> material_names() const;
   std::optional<Unbalance> unbalance(TableReader& table, const Station& at,
                                      std::optional<double> mass);
-  /// Tells of a key that needs the tilts of its station where a body has none.
+  /// Reports a key that needs the tilts of its station, if the station is a body without tilts.
   void need_tilts(TableReader& table, const char* key, const Station& at) const;
   // model_contacts.cpp
   void read_contacts();

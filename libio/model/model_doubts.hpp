@@ -20,11 +20,11 @@ namespace whirl::inline io {
 std::vector<Problem> model_doubts(const std::string& text, const std::string& name,
                                   const std::vector<std::string>& sets, const NamedFiles& files);
 
-/// Says of a speed far outside of the range that the model gives its machine how far; empty: it is
-/// not, or there is no range.
+/// Says how far the speed is outside of the range that the model gives its machine; empty: the
+/// speed is not far outside, or there is no range.
 std::string speed_doubt(const Model& model);
 
-/// Contacts that a rotor touches at rest.
+/// Doubts about contacts that the rotor touches at rest.
 std::vector<Problem> rest_doubts(const ModelFacts& facts, const Model& model);
 
 }  // namespace whirl::inline io

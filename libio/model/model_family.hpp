@@ -12,10 +12,10 @@
 
 namespace whirl::inline io {
 
-/// The text is read once, and for a value only that is made again which it changes: a contact's
-/// stiffness needs no mesh and no reduction, a speed no mesh, and no reduction where neither
-/// matrices nor basis depend on it. Members are to the last bit what parse_model and make_scene
-/// make of the same values. May be asked by several threads at once.
+/// The text is read once, and for a value only those parts are made again that the value changes: a
+/// contact's stiffness needs no new mesh and no new reduction, a speed no new mesh, and no new
+/// reduction where neither matrices nor basis depend on the speed. Members are to the last bit what
+/// parse_model and make_scene make of the same values. Several threads may ask a family at once.
 class ModelFamily {
  public:
   /// @param base  as it was read: its `source` is the text that values are set in
@@ -34,7 +34,7 @@ class ModelFamily {
   ///
   /// @throws ModelError, NumericalError  as make_scene
   std::shared_ptr<const Scene> scene(const Model& member) const;
-  /// Of the member with these values; the last few are remembered.
+  /// The scene of the member with these values; the last few scenes are remembered.
   std::shared_ptr<const Scene> scene(std::span<const double> values) const;
 
   /// Where the motion of a member begins, as start_state.

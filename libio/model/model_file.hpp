@@ -20,10 +20,10 @@ Model read_model(const std::filesystem::path& path, const std::vector<std::strin
 /// @throws ModelError  if it has none
 void require_speed(const Model& model);
 
-/// The same from a text, for tests and for models stored in results, which have their tables in
-/// them.
+/// Reads a model from a text: for tests, and for models stored in results, which have their tables
+/// in them.
 /// @param name   for messages
-/// @param files  which ones the model may name; left out: none, which is right for all that a
+/// @param files  files that the model may name; left out: none, which is right for any text that a
 ///               stranger may have written
 Model parse_model(const std::string& text, const std::string& name = "model",
                   const std::vector<std::string>& sets = {}, const NamedFiles& files = {});

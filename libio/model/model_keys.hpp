@@ -15,7 +15,7 @@ using Requirements = std::set<std::vector<std::string>>;
 /// What a value of a key changes in its table: what else is needed, what is not known.
 struct Condition {
   std::string key{}, value{};  ///< no value: it is enough that the key is there
-  bool is_default = false;     ///< whether it holds too if the key is left out
+  bool is_default = false;     ///< whether it also holds if the key is left out
   Requirements required{};
   std::vector<std::string> unknown{};
 };

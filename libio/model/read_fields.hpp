@@ -23,19 +23,19 @@ class TableReader {
   /// @param table     null: the table is absent, everything in it is left out
   /// @param path      of the table, for messages
   /// @param problems  receives what is wrong
-  /// @param asked     receives what is asked for; null: nobody wants to know
+  /// @param asked     receives what is asked for; null: not wanted
   TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems,
               std::vector<AskedKey>* asked = nullptr);
 
   bool has(std::string_view key) const { return table_ && table_->find(key); }
-  /// Whether something stands here that is no table; that is reported, and nothing else in it.
+  /// Whether something stands here that is no table; only this is reported, and nothing inside.
   bool is_malformed() const { return is_malformed_; }
   const ConfigNode* node(std::string_view key);  ///< value of a key, which becomes known; or null
   std::string path(std::string_view key) const;
   Where where() const { return table_ ? table_->where : Where{}; }
   Where where(std::string_view key) const;  ///< of the key's value, or of the table
 
-  /// All fields of a struct. What is absent or wrong stays as it is.
+  /// Reads all fields of a struct. Members whose key is absent or wrong stay as they are.
   /// @param other  other(field, member) reads a member of a type that is not known here
   template <class Struct, class... Other>
   void read(Struct& to, const Other&... other) {
@@ -55,9 +55,9 @@ class TableReader {
                                             Range range, std::string_view expected);
   /// A list of one or more.
   std::vector<double> list(std::string_view key, std::string_view unit, Range range);
-  /// A matrix of two rows: one value stands for both of its diagonal, { xx, yy, xy, yx } for each;
-  /// xy and yx are zero if left out.
-  /// @param range  of the one value; each of four may be any
+  /// A matrix of two rows: one value that stands for both of the diagonal, or { xx, yy, xy, yx },
+  /// of which xy and yx are zero if left out.
+  /// @param range  of the one value; each of the four may be any number
   std::optional<Mat2> matrix(std::string_view key, std::string_view unit, Range range);
   std::optional<long> integer(std::string_view key, Range range, bool is_required = false);
   /// Reports a value that is more than it may be.
@@ -76,15 +76,15 @@ class TableReader {
   /// One of some names; reports any other.
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& known);
 
-  /// A required key is missing; so are others that would do as well.
+  /// Reports a required key that is missing, as all others that would do as well are.
   void missing(std::string_view key, std::string_view expected,
                std::vector<std::string> alternatives = {});
   void problem(std::string_view key, std::string message);
   void unknown_choice(std::string_view key, const std::string& found,
                       const std::vector<std::string>& known);
 
-  /// Reports keys that nobody asked for, with the nearest known one, and those that are missing,
-  /// unless an unknown key was meant for them.
+  /// Reports keys that nobody asked for, with the nearest known one, and required keys that are
+  /// missing, unless an unknown key was meant for one.
   void finish();
 
  private:
@@ -147,7 +147,7 @@ class TableReader {
   std::vector<std::string> known_;
 
   struct Missing {
-    std::vector<std::string> keys;  ///< the one to name, and alternatives
+    std::vector<std::string> keys;  ///< the key to name, and alternatives
     Problem problem;
   };
   std::vector<Missing> missing_;

@@ -28,7 +28,7 @@ bool read_member(TableReader& table, std::string_view key, List& to) {
   std::vector<std::string> names;
   for_each_with_keys<List>([&](const auto& member) { names.emplace_back(member.name); });
   const auto found = table.choice(key, names);
-  if (!found && table.has(key)) {  // one mistake, and not many: the keys of all of them are known
+  if (!found && table.has(key)) {  // one mistake, and not many: the keys of all members are known
     for_each_with_keys<List>([&](const auto& member) {
       for (const std::string& name : keys_of_member(member)) table.node(name);
     });

@@ -16,7 +16,7 @@ struct ShaftRow {
   double length = 0.0;  ///< [m]
   Section left, right;
   std::string material;                     ///< name; empty: that of the whole table
-  int material_place = 1, inner_place = 1;  ///< of these cells in the line, from 1
+  int material_place = 1, inner_place = 1;  ///< of the two cells in the line, from 1
   int elements = 0;                         ///< 0: not given
   Carries carries = Carries::both;
   Rayleigh damping;
@@ -29,12 +29,12 @@ struct ShaftRow {
 /// brackets (without one, SI): length; outer_diameter, or outer_left and outer_right;
 /// inner_diameter, or inner_left and inner_right; material; layer; elements; carries;
 /// rayleigh_mass, rayleigh_stiffness. Only length and an outer diameter are needed. Rows follow one
-/// another from left to right; one with a layer above 1 lies on the last one of layer 1, and may
+/// another from left to right; a row with a layer above 1 lies on the last row of layer 1, and may
 /// leave its length out. Numbers of stations or rows ("Sta. No.", "#") are not read; positions are
 /// refused, as they are no lengths.
 ///
 /// @param file      for messages
-/// @param problems  receives what is wrong, with its place; what is so in many rows once
+/// @param problems  receives what is wrong, with its place; a problem of many rows only once
 /// @return          rows; if there are problems, they are of no use
 std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::string& file,
                                         std::vector<Problem>& problems);

@@ -1,5 +1,5 @@
 #pragma once
-/// The points of a study of a model file: its models, and how they are called.
+/// The points of a study of a model file: its models, and their names.
 
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@ namespace whirl::inline io {
 
 class StudyPoints {
  public:
-  /// @param earlier  where an earlier motion ended that all motions go on from; nothing: they begin
+  /// @param earlier  end of an earlier motion, from which all motions go on; nothing: motions begin
   ///                 at the start of their models
   /// @throws ModelError  if there is no model, or none with a speed, at the ends of the axes
   StudyPoints(Model model, std::vector<ParameterAxis> axes, std::optional<EarlierEnd> earlier);
@@ -25,10 +25,10 @@ class StudyPoints {
   const ParameterGrid& grid() const { return grid_; }
   const std::optional<EarlierEnd>& earlier() const { return earlier_; }
 
-  /// Models at the points; they live no longer than this.
+  /// Models at the points; they live no longer than this object.
   StudyModels models() const;
   /// The model at the first point.
-  /// @throws NumericalError  that names the point, if it cannot be computed with
+  /// @throws NumericalError  that names the point, if the model cannot be computed with
   StudyMember first() const;
   /// The model at a point; points beyond the last one begin again, as those of a sweep's way back.
   Model model_at(std::size_t point) const;

@@ -18,7 +18,7 @@ struct CoefficientColumn {
   Kind kind = Kind::entry;
   Mat2 BearingCoefficients::*matrix = nullptr;  ///< of an entry
   int row = 0, column = 0;
-  bool needs_unit = false;  ///< named as other programs do, who do not mean SI
+  bool needs_unit = false;  ///< named as by other programs, which do not mean SI
   int place = 1;            ///< of its name in the line
   bool is_remark = false;   ///< words, which nobody reads
 };
@@ -34,11 +34,12 @@ std::vector<CoefficientColumn> columns_named(const std::string& line, Delimiter 
 /// How many known columns a line names.
 std::size_t coefficients_named_in(const std::string& line);
 
-/// Gives columns the units of such a line.
+/// Gives columns the units in the cells of a line.
 void take_units(std::vector<CoefficientColumn>& columns, const std::vector<Cell>& cells,
                 const ReportProblem& report);
 
-/// Reports what columns lack as a whole: speeds and frequencies, units, or that one is there twice.
+/// Reports what is wrong with columns as a whole: no speeds or frequencies, a unit that is missing,
+/// a column that is there twice.
 void check_columns(const std::vector<CoefficientColumn>& columns, const ReportProblem& report);
 
 /// Reports what may be forgotten: one of kxx and kyy, of kxy and kyx, ...

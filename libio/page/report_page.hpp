@@ -17,8 +17,8 @@ struct ReportPage {
 /// Every figure that the results hold, their facts and what moves, in one self-contained page.
 ///
 /// Results of one machine (see machine_report.hpp) are one report of it: its drawing once, then a
-/// section per analysis. Others are shown one after the other, below what they show over each
-/// other. A figure that fails is told with its reason, and the rest is drawn.
+/// section per analysis. Other results are shown one after the other, below figures that show them
+/// over each other. A figure that fails is told with its reason, and the rest is drawn.
 ///
 /// @param results  one or more
 /// @param version  of the program that makes the page

@@ -1,7 +1,7 @@
 #pragma once
 /// Columns of results (libbase/structs/column.hpp) whatever their types: lists that the compiler
-/// makes, so that what reads, writes and tells results is compiled once and not for every one of
-/// them.
+/// makes, so that the code that reads, writes and tells results is compiled once, and not for every
+/// result.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace whirl::inline io::columns {
 
-/// A column of a result, or of one of its rows; null where a function is not needed.
+/// A column of a result, or of one of its rows; a function that is not needed is null.
 struct AnyColumn {
   using ToValue = std::function<void(const void* value)>;
   using ToRows = std::function<void(const void* rows, std::size_t count)>;
@@ -39,7 +39,7 @@ struct AnyColumn {
   bool (*is_empty)(const void* value) = nullptr;  ///< a text, list or optional
   Record (*record)(const void* value, double divisor, int offset) = nullptr;
 
-  /// Of a list of rows in place of a value.
+  /// For a list of rows in place of a value.
   RowsInfo rows{};
   bool is_rows = false;
   std::span<const AnyColumn> of_row{};
@@ -49,9 +49,9 @@ struct AnyColumn {
 
   int offset() const { return info.is_from_one ? 1 : 0; }
   bool is_in_files() const { return put != nullptr; }
-  /// Whether it is a dataset as a column of rows.
+  /// Whether the column is a dataset as a column of rows.
   bool is_in_rows() const { return is_in_files() && fits_files; }
-  /// The first dataset of a list of rows; it has one.
+  /// The first dataset of a list of rows, which must have one.
   const AnyColumn& first_of_row() const {
     return *std::find_if(of_row.begin(), of_row.end(), std::mem_fn(&AnyColumn::is_in_rows));
   }
@@ -65,7 +65,7 @@ inline void* row_at(void* rows, std::size_t row_size, std::size_t i) {
   return static_cast<char*>(rows) + row_size * i;
 }
 
-/// Whether a column is a member of a result, or of a part of one, and no function of it.
+/// Whether a column is a member of a result, or of a part of one, and not computed from it.
 template <class T, class Member>
 constexpr bool is_read =
     std::is_same_v<std::invoke_result_t<const Member&, T&>, ColumnValue<T, Member>&>;
@@ -141,7 +141,7 @@ constexpr AnyColumn any_rows() {
   AnyColumn any;
   any.rows = c;
   any.is_rows = true;
-  // points of studies have their own ways
+  // points of studies are read and written by point_columns.hpp
   if constexpr (HasColumns<Row> && std::ranges::contiguous_range<ColumnValue<T, Member>>) {
     any.of_row = any_columns<Row>;
     any.row_size = sizeof(Row);

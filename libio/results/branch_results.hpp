@@ -13,7 +13,7 @@ class ResultWriter;
 /// @param result  of the tree
 void write_branches(ResultWriter& file, const BranchTree& tree, BranchResult result);
 
-/// The same branches again, bit by bit.
+/// Reads the branches that write_branches wrote, bit by bit.
 /// @param empty  a tree of the same layout, whatever its harmonics
 /// @throws FileError  if the file holds something else
 BranchTree read_branches(const ResultReader& file, BranchTree empty);
@@ -22,8 +22,8 @@ BranchTree read_branches(const ResultReader& file, BranchTree empty);
 /// @param result  of the curves
 void write_curves(ResultWriter& file, const BifurcationCurves& curves, CurveResult result);
 
-/// The same curves again, bit by bit; none where there are none.
-/// @param layout  of the branches that they go through
+/// Reads the curves that write_curves wrote, bit by bit; none if the file has none.
+/// @param layout  of the branches that the curves go through
 /// @throws FileError  if the file holds something else
 BifurcationCurves read_curves(const ResultReader& file, const BranchLayout& layout);
 

@@ -34,8 +34,8 @@ std::vector<std::string> options_named(const std::vector<std::string>& options,
 std::vector<std::string> options_without(const std::vector<std::string>& options,
                                          const std::vector<std::string_view>& names);
 
-/// The words that make a call again on the model that is stored with it: its verb, its file and
-/// those of its options that count again. What was set is in the stored model already.
+/// The words that make a call again on the model that is stored with it: its verb, its file, and
+/// its options without those that do not count. What was set is in the stored model already.
 /// @param left_out  options that do not count: only the line at hand says what is written
 std::vector<std::string> words_again(const std::string& program, const Call& call,
                                      std::vector<std::string_view> left_out);
@@ -49,8 +49,8 @@ Call parse_call(const std::vector<std::string>& words);
 /// Writes group /call of a result file.
 void write_call(ResultWriter& file, const Call& call);
 
-/// Reads it; of a file without it, the words of its command line are taken apart.
-/// @throws FileError  if the file holds neither
+/// Reads group /call; of a file without that group, the words of the command line are taken apart.
+/// @throws FileError  if the file holds neither group nor words
 Call read_call(const ResultReader& file);
 
 /// Where a result comes from.
@@ -68,7 +68,7 @@ void write_origin(ResultWriter& file, const ResultOrigin& origin, const Model& m
 /// @throws FileError  if the file has none
 std::string stored_model(const ResultReader& file);
 
-/// A word as a shell takes it for one, whatever is in it.
+/// A word in quotation marks if needed, so that a shell takes it for one word, whatever is in it.
 std::string shell_word(std::string_view word);
 
 /// Words as a line for a shell.

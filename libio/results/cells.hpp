@@ -87,10 +87,10 @@ constexpr int rank_of() {
   }
 }
 
-/// Whether a file can hold it; what cannot be is for JSON only.
+/// Whether a file can hold values of a type; other values are for JSON only.
 template <class T>
 constexpr bool fits_files = !Maybe<T> && kind_of<T>() != ObjectKind::other;
-/// Whether it can be an attribute that may be missing.
+/// Whether values of a type can be an attribute that may be missing.
 template <class T>
 constexpr bool fits_attributes = Maybe<T>&& rank_of<T>() == 0 && kind_of<T>() != ObjectKind::other;
 

@@ -23,7 +23,7 @@ Record record_of(const T& result);
 
 namespace columns {
 
-/// What all columns are described by, whatever their type.
+/// What describes a column, whatever its type.
 struct Facts {
   std::string name;  ///< of the dataset or attribute, below the group
   std::string unit, meaning;
@@ -38,10 +38,10 @@ Facts facts_of(const ColumnInfo& c, std::string_view rows = "", std::string_view
 /// The dataset of the numbers of rows.
 Facts number_facts(const RowsInfo& c);
 
-/// What a file is checked against that has a dataset or attribute.
+/// The entry of a dataset or attribute, which files are checked against.
 ResultEntry entry_of(const std::string& path, const Facts& facts, ObjectKind kind);
 
-/// Names of dimensions, those of a list that a space separates, without their "+".
+/// Names of the dimensions in a list, which spaces separate, without their "+".
 std::vector<std::string> dimension_names(std::string_view list);
 
 /// Reads a dataset of a kind, or an attribute, "group@name"; nothing where a file is without it.
@@ -70,7 +70,7 @@ std::vector<ResultSet> schema_of_columns(std::string_view group, Columns columns
 /// @param prefix  of the rows that it is a column of
 std::string path_of(std::string_view group, const AnyColumn& column, std::string_view prefix = "");
 
-/// "speed_rpm" of rad/s, "x_m", unless the column says another.
+/// "speed_rpm" of rad/s, "x_m", unless the column says another key.
 std::string json_key(const ColumnInfo& c);
 
 template <class T>
@@ -140,9 +140,10 @@ Record record_of(const T& result) {
   return columns::record_of_columns(columns::any_columns<T>, &result);
 }
 
-/// What a file is checked against that holds a result: what is never missing in one set; datasets
-/// that may be, a set of all along one dimension; of rows a set of all along the same ones, which
-/// needs the datasets that say these; then rows that may be. All of these need the first set.
+/// The sets of entries that a file with a result is checked against. The first set has all that is
+/// never missing. Further sets, all of which need the first one, have what may be missing: one set
+/// the datasets along one dimension, one the datasets of rows along the same dimensions (it also
+/// needs the datasets that say these), and one a list of rows.
 template <HasGroup T>
 std::vector<ResultSet> schema_of() {
   return columns::schema_of_columns(T::group, columns::any_columns<T>);

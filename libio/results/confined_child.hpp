@@ -1,5 +1,5 @@
 #pragma once
-/// A process of its own that reads a file from outside, by a library that damaged files may end.
+/// A process of its own that reads a file from outside, by a library that a damaged file may crash.
 
 #include <sys/types.h>
 
@@ -35,18 +35,19 @@ class OpenedFile {
 /// for a lock of that library without end.
 std::recursive_mutex& library_lock();
 
-/// In a child: from now on it can open no file any more. Said as soon as its own one is open.
+/// In a child: from now on the child can open no file. To be called as soon as its own file is
+/// open.
 void open_nothing_more();
 
-/// Reads a file in a child process: whatever the file does to the library that reads it is done to
-/// the child, and an error here.
+/// Reads a file in a child process: whatever the file does to the library that reads it happens to
+/// the child, and is an error here.
 ///
 /// The child has nothing open but the file and the way back, cannot write to files, and has a limit
 /// of memory (half of the machine's, 1 GB or more) and one of processor time for every answer (10
 /// s, and 1 s for every MB of the file).
 class ConfinedChild {
  public:
-  /// What goes between both.
+  /// What goes between this process and the child.
   struct Letter {
     std::string bytes{};
     std::vector<double> numbers{};
@@ -62,7 +63,7 @@ class ConfinedChild {
   ConfinedChild(const ConfinedChild&) = delete;
   ConfinedChild& operator=(const ConfinedChild&) = delete;
 
-  /// Its answer. May be asked by several threads.
+  /// The answer of the child. Several threads may ask.
   /// @throws FileError, ModelError  that the answer threw
   /// @throws FileError  if the child was ended by a signal or by a limit, now or before
   Letter ask(const std::string& question) const;
@@ -73,7 +74,7 @@ class ConfinedChild {
   std::string name_, format_;
   pid_t child_ = -1;
   int socket_ = -1;
-  std::size_t most_bytes_ = 0;  ///< that it can answer
+  std::size_t most_bytes_ = 0;  ///< that the child can answer
   mutable std::mutex asking_{};
   mutable std::string end_{};  ///< how the child ended; empty: it goes on
 };

@@ -14,7 +14,7 @@ namespace whirl::inline io {
 /// which spreadsheets take for "this is text".
 std::string spreadsheet_text(const std::string& text);
 
-/// A cell in quotation marks; those in it are doubled.
+/// A cell in quotation marks; quotation marks in it are doubled.
 std::string csv_quoted(std::string_view cell);
 
 /// Writes the groups of a result as "<stem>_<group>_<rows>.csv".
@@ -26,7 +26,7 @@ std::string csv_quoted(std::string_view cell);
 /// what is not a number is left empty. Texts that begin like a formula (=, +, -, @) get an
 /// apostrophe in front. Left out are datasets that only this program goes on from.
 ///
-/// A table has no room for a mark of its origin: one that is there may be replaced if its first
+/// A table has no room for a mark of its origin: a table that is there may be replaced if its first
 /// line is the same.
 ///
 /// @param samples  of the motion, the rows of its tables; left out: all

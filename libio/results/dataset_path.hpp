@@ -10,7 +10,7 @@ namespace whirl::inline io {
 
 namespace columns {
 
-/// The column of files that a member of a struct is; null: there is none.
+/// The column, written into files, that a member of a struct is; null: there is none.
 template <HasColumns T, class Member>
 const AnyColumn* column_of(const Member& member) {
   const AnyColumn* found = nullptr;
@@ -27,7 +27,7 @@ const AnyColumn* column_of(const Member& member) {
 }  // namespace columns
 
 /// Path of the dataset that a member of a result, or of its rows, is written as; of a list of rows
-/// that of their first column. Empty: no file has it.
+/// the path of their first column. Empty: files do not have the member.
 ///
 ///   dataset_of<Campbell>(&CampbellBranch::frequency) = "/campbell/frequency"
 template <HasGroup T, class Member>

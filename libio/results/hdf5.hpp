@@ -46,7 +46,7 @@ struct KeptResult {
     std::variant<std::string, double, int> value;
   };
   std::vector<Dataset> datasets;      ///< in the order of their writing
-  std::vector<Attribute> attributes;  ///< likewise, without those that `info` says
+  std::vector<Attribute> attributes;  ///< likewise, without those that DatasetInfo says
 };
 
 /// A dataset of numbers that is written block by block. Every member throws as ResultWriter.
@@ -79,8 +79,8 @@ class DatasetBlocks {
 /// Thrown out of a writing that is given up.
 struct WritingGivenUp {};
 
-/// Writes a result file beside its place, where commit() puts it whole; or keeps what it would
-/// hold.
+/// Writes a result file beside its place, where commit() puts the whole file; or keeps what the
+/// file would hold.
 ///
 /// Objects are named by absolute paths, "/trajectory/x"; groups are made on the way. Datasets above
 /// 64 kB are compressed. The same calls write the same bytes. Every member throws FileError, which
@@ -88,7 +88,7 @@ struct WritingGivenUp {};
 class ResultWriter {
  public:
   /// @throws FileError  as FileReplacement
-  /// @param kept  takes the same; null: nobody does
+  /// @param kept  receives the same as the file; null: not wanted
   explicit ResultWriter(const std::filesystem::path& path, Replaces what = Replaces::own_results,
                         KeptResult* kept = nullptr);
   /// Without a file.
@@ -115,21 +115,21 @@ class ResultWriter {
   void dataset(const std::string& path, const std::vector<int>& values, const DatasetInfo& info);
   void dataset(const std::string& path, const std::vector<std::string>& values,
                const DatasetInfo& info);
-  /// Of any number of dimensions, the last index running fastest.
+  /// Writes a dataset of any number of dimensions, the last index running fastest.
   void dataset(const std::string& path, const std::vector<double>& values,
                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void dataset(const std::string& path, const std::vector<int>& values,
                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
-  /// Begins one whose numbers come block by block, real or integer ones: several may be open at a
+  /// Begins a dataset of real or integer numbers that come block by block: several may be open at a
   /// time.
   DatasetBlocks dataset_blocks(const std::string& path, ObjectKind kind,
                                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
-  /// All that was kept of another one.
+  /// Writes all that another writer has kept.
   void write(const KeptResult& kept);
 
   /// From now on go_on() asks this whether to give up.
   void give_up_if(std::function<bool()> is_given_up) { is_given_up_ = std::move(is_given_up); }
-  /// Asked now and then by what writes much.
+  /// To be called now and then by code that writes much.
   /// @throws WritingGivenUp
   void go_on() const;
 
@@ -145,7 +145,7 @@ class ResultWriter {
                       const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void write(const std::string& path, ObjectKind kind, const void* values,
              const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
-  /// @param values  with so many elements as the shape says
+  /// @param values  as many elements as the shape says
   template <class Value>
   void write_or_keep(const std::string& path, ObjectKind kind, const Value* values,
                      const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
@@ -165,14 +165,14 @@ struct Stretch {
 
 /// Reads a result file, or any other HDF5 file of numbers and texts.
 ///
-/// HDF5 1.10 ends the process on some damaged files, writes where it must not, and never returns
-/// from others: it reads in a child process (ConfinedChild), whoever wrote the file and whatever
-/// its checksum says, which anybody can write. The child holds the file open, and is asked for
-/// everything.
+/// HDF5 1.10 ends the process on some damaged files, or writes where it must not, and never returns
+/// from others. Therefore a child process reads the file (ConfinedChild), whoever wrote it and
+/// whatever its checksum says, as anybody can write a checksum. The child holds the file open, and
+/// is asked for everything.
 ///
 /// Every member throws FileError, which names file and object, for what is missing, damaged or of
-/// another type or shape; has() only where HDF5 does not survive. Nothing outside of the file is
-/// ever read, and no dataset that says to be larger than the file can hold.
+/// another type or shape; has() throws only where HDF5 does not survive. Nothing outside of the
+/// file is ever read, and no dataset that says to be larger than the file can hold.
 class ResultReader {
  public:
   /// @throws FileError  if there is no such file, if it is no HDF5 file or a damaged one, or if
@@ -216,14 +216,14 @@ class ResultReader {
   /// Names of the members of a group, in the order of the alphabet.
   std::vector<std::string> list(const std::string& group) const;
   /// Paths of all groups, "/" among them, and of all datasets. A group that several links lead to,
-  /// or that lies in itself, is one, and is looked into once.
+  /// or that lies in itself, counts once, and is looked into once.
   std::vector<std::string> groups() const;
   std::vector<std::string> datasets() const;
 
  private:
   std::filesystem::path path_;
   std::unique_ptr<ConfinedChild> child_;
-  std::vector<std::string> paths_;  ///< of all objects, in their order; empty: they are asked for
+  std::vector<std::string> paths_;  ///< of all objects, in their order; empty: the child is asked
 };
 
 }  // namespace whirl::inline io

@@ -10,7 +10,8 @@
 
 namespace whirl::inline io {
 
-/// A motion near what is followed, asked where there is nothing of it yet; nothing: stop.
+/// Gives a motion near what is to be followed, asked if the file has nothing of that yet; nothing:
+/// stop.
 using Settled = std::function<std::optional<MotionState>()>;
 
 /// Branches that were followed.
@@ -23,7 +24,7 @@ struct KeptBranches {
 KeptBranches keep_branches(const BranchSetup& asked, const StudyKeeping& keeping,
                            const Settled& settled);
 
-/// A circle, and those along its parameter.
+/// A circle, and the circles along its parameter.
 struct KeptTorus {
   TorusBranch torus{};
   long resumed = 0;  ///< circles that were there already

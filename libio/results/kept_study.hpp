@@ -22,12 +22,13 @@ namespace whirl::inline io {
 struct StudyKeeping {
   StudyPlace place{};
   StudyFile::Begin begin{};  ///< makes its file, with the facts of the call
-  /// Makes what keeps the study in memory when it has run, likewise; it may give nothing.
+  /// Makes, likewise, the writer that keeps the study in memory when the study has run; may give
+  /// none.
   StudyFile::Begin begin_kept{};
   std::function<void(long done, long total)> progress{};  ///< as of Monitor
   std::function<bool()> is_stopped{};                     ///< likewise
   const Ranks* ranks = nullptr;                           ///< likewise
-  Stripe stripe{};  ///< of a study of points: what it computes
+  Stripe stripe{};  ///< of a study of points: the points that it computes
 };
 
 /// A study, and how its file has it.
@@ -37,14 +38,14 @@ struct KeptStudy {
   /// Adds what an earlier run of the same study, or of a part of it, has left.
   std::function<void(Study&, const ResultReader&)> take;
   std::function<Study(Study begun, const Monitor<Study>&)> run;
-  /// A point of it as bytes, and back: rows that are new are kept beside its file while saving all
-  /// of them would take long. Left out: all is saved each time.
+  /// A point of the study as bytes, and back: new rows are kept beside the file while saving the
+  /// whole study would take long. Left out: the whole study is saved each time.
   std::function<std::string(const Study&, std::size_t point)> pack{};
   std::function<void(Study&, std::size_t point, std::string_view bytes)> unpack{};
 };
 
-/// Runs it, from what its file has already.
-/// @param begun  where there is no such file
+/// Runs a kept study, from what its file has already.
+/// @param begun  what it begins with, before what the file has is added
 /// @throws FileError  as StudyFile
 template <class Study>
 Study run_kept(const StudyKeeping& keeping, const KeptStudy<Study>& kept, Study begun = {}) {
@@ -98,7 +99,7 @@ struct StudyRun {
   StudyOutcome outcome{};
 };
 
-/// Runs one.
+/// Runs such a study.
 /// @param size      how many points it has
 /// @param study     called with what was there already and with a monitor
 /// @param describe  names a point

@@ -16,9 +16,9 @@ using MatlabVariable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
 using MatlabFile = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
 
 /// Writes a file of level 5.
-/// @param head  what it begins with, told to people
-/// @throws FileError  as FileReplacement, and if it is not whole: matio does not tell of a full
-///                    disk
+/// @param head  text that the file begins with, for people
+/// @throws FileError  as FileReplacement, and if the file is not whole: matio does not tell of a
+///                    full disk
 void write_matlab_file(const std::filesystem::path& place, const char* head,
                        const std::vector<MatlabVariable>& variables, Replaces replaces);
 

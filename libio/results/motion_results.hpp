@@ -17,15 +17,15 @@ class ResultWriter;
 /// Groups of a rotor at rest: what its bearings and films carry, and how its shaft bends.
 void write_rest(ResultWriter& file, const StaticStudy& study);
 
-/// Groups /critical and /critical_map, which is solved here: nothing but a file shows it. A map
-/// that cannot be solved is left out; who draws it tells why.
+/// Groups /critical and /critical_map. The map is solved here, as only files show it; a map that
+/// cannot be solved is left out, and whoever draws it tells why.
 /// @param structure  that the speeds were found of
 void write_criticals(ResultWriter& file, const Structure& structure, const CriticalSpeeds& found);
 
 /// Group /points: nodes and bodies with their positions and names.
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);
 
-/// Speed, group /points, and where a motion ended, for others to go on, in group /trajectory.
+/// Speed, group /points, and in group /trajectory where a motion ended, for others to go on.
 void write_end(ResultWriter& file, const Model& model, const Scene& scene, const MotionState& end);
 /// The same of a reduced state at phase 0, on an orbit for instance.
 void write_end(ResultWriter& file, const Model& model, const Scene& scene, const Vec& state);
@@ -36,24 +36,24 @@ void write_run(ResultWriter& file, const Run& run, const Model& model);
 /// The run of a result, with all that was recorded of it; how long it took is not known.
 struct StoredRun {
   Run run;
-  MotionEnd end;  ///< which run.simulation.end is not
+  MotionEnd end;  ///< of the motion; run.simulation.end is not set
 };
-/// @param model     that it is the motion of
+/// @param model     whose motion it is
 /// @param stations  as RunOptions has them, and the method
 /// @throws FileError   if the file cannot be read
 /// @throws ModelError  if it holds no motion, or that of another rotor
 StoredRun stored_run(const std::string& path, const Model& model, const std::string& stations,
                      const std::string& method);
-/// The same groups of it.
+/// Writes the same groups of a stored run.
 void write_run(ResultWriter& file, const StoredRun& stored, const Model& model);
 
-/// Groups /campbell and /resonances; a motion that bounces is the end of the result, so that others
-/// begin there.
+/// Groups /campbell and /resonances; the first motion that bounces is the end of the result, so
+/// that other motions can begin there.
 void write_resonances(ResultWriter& file, const Model& model, const Assembler& assembler,
                       const ResonanceStudy& study);
 
 /// Where the motion of a result ended.
-/// @throws FileError, ModelError  if there is none in the file
+/// @throws FileError, ModelError  if the file holds no such end
 EarlierEnd earlier_end(const std::string& path);
 
 /// The same if a model's [start] is such a result.

@@ -14,13 +14,13 @@ namespace whirl::inline io {
 /// What was asked for; nothing: the end of the motion.
 struct MotionWindow {
   std::optional<double> from_revolution;  ///< since the start of the simulation
-  std::optional<double> revolutions;      ///< that many; from the last ones if from where is open
+  std::optional<double> revolutions;      ///< how many; the last ones if from_revolution is open
   std::optional<std::pair<double, double>> times;  ///< first and last [s], instead of revolutions
 
   bool is_given() const { return from_revolution || revolutions || times; }
 };
 
-/// A window where there is nothing that it could be of.
+/// The error of a window where there is nothing that a window could be of.
 /// @param problem  what windows are of, and what there is
 ModelError wrong_window(std::string problem);
 
@@ -36,7 +36,7 @@ struct RecordedMotion {
 };
 
 /// The motion of a result that has one.
-/// @throws FileError  if what belongs to it is not there
+/// @throws FileError  if a part of the motion is not there
 RecordedMotion recorded_motion(const ResultReader& file);
 
 /// The samples of a window.
@@ -50,7 +50,7 @@ struct MotionSamples {
 /// The samples of a motion within a window.
 ///
 /// @param motion       of one sample or more
-/// @param usual        how many revolutions are meant where the window leaves that open
+/// @param usual        how many revolutions are meant where the window leaves their number open
 /// @throws ModelError  if the window holds what was not recorded; says what was
 MotionSamples samples_of(const MotionWindow& window, const RecordedMotion& motion, double usual);
 

@@ -8,8 +8,8 @@ namespace whirl::inline io {
 
 class ResultWriter;
 
-/// A motion on an orbit, so that others begin there; of one that was found group /orbit: its
-/// multipliers, and the motion of all points, the latter not of the rotating frame.
+/// A motion on an orbit, so that others begin there. If the orbit was found, also group /orbit: its
+/// multipliers and, for harmonic balance in the stationary frame, the motion of all points.
 void write_orbit(ResultWriter& file, const Model& model, const Scene& scene,
                  const FoundOrbit& orbit);
 void write_orbit(ResultWriter& file, const Model& model, const Scene& scene,

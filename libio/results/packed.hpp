@@ -1,5 +1,5 @@
 #pragma once
-/// Structs as numbers one after another, for what a study goes on from.
+/// Structs as numbers one after another, from which a study goes on.
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@ namespace whirl::inline io {
 class ResultReader;
 class ResultWriter;
 
-/// Takes structs apart into doubles. A function template serves Packer and Unpacker. It names all
-/// members of a struct, those too that it leaves out, so that a new one does not compile until
-/// somebody has decided:
+/// Takes structs apart into doubles. One function template serves Packer and Unpacker. It names all
+/// members of a struct, also those that it leaves out, so that a new member does not compile until
+/// it is named:
 ///
 ///   void pack(auto& in, auto& point) {
 ///     auto& [value, z, name] = point;  // the name is kept elsewhere
@@ -48,7 +48,7 @@ class Packer {
   void size(const List& list) {
     (*this)(list.size());
   }
-  /// A list that has the size of another one: nothing.
+  /// Writes nothing: the size of the list is that of another one.
   template <class List>
   void resize(const List&, std::size_t) {}
 
@@ -64,14 +64,16 @@ class Packer {
   std::vector<double> numbers_;
 };
 
-/// Puts them together again. Whatever the numbers are, it makes no more than they can fill.
+/// Puts structs together again. Whatever the numbers are, lists become no longer than the numbers
+/// can fill.
 class Unpacker {
  public:
   /// @param path  of the dataset, for errors
   Unpacker(std::string path, std::vector<double> numbers)
       : path_(std::move(path)), numbers_(std::move(numbers)) {}
 
-  /// @throws FileError  where the numbers end before, or a count is none
+  /// @throws FileError  where the numbers end too early, or a count is no whole number within its
+  ///                    bounds
   void operator()(double& x) { x = take(); }
   template <class Number>
   requires std::is_integral_v<Number> || std::is_enum_v<Number>
@@ -103,7 +105,7 @@ class Unpacker {
     list.resize(size);
   }
 
-  /// @throws FileError  if something is left
+  /// @throws FileError  if numbers are left
   void finish() const {
     if (next_ == numbers_.size()) return;
     fail(fmt::format("{} numbers are left behind the last one", numbers_.size() - next_));
@@ -114,7 +116,7 @@ class Unpacker {
   }
 
  private:
-  static constexpr double most_number = 1e9;  ///< of what counts nothing in the numbers themselves
+  static constexpr double most_number = 1e9;  ///< of whole numbers that are no sizes of lists
 
   template <class List>
   void size_and_items(List& list) {
@@ -138,7 +140,7 @@ class Unpacker {
   std::size_t next_ = 0;
 };
 
-/// Marks dataset `walk` of a group, what a study goes on from, with its arrangement.
+/// Marks dataset `walk` of a group, from which a study goes on, with its arrangement.
 void write_walk_format(ResultWriter& file, std::string_view group);
 /// @param numbers  of that dataset
 /// @throws FileError  if its arrangement is that of another version

@@ -6,7 +6,7 @@
 
 namespace whirl::inline io {
 
-/// All of a point but the names of its contacts; mean slips are not known of orbits.
+/// All members of a point but the names of its contacts; mean slips are not known of orbits.
 void pack_point(auto& in, auto& point) {
   auto& [value, z, tangent, step, multipliers, residual, contacts] = point;
   in(value), in(z), in(tangent), in(step), in(residual);

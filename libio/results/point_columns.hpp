@@ -35,7 +35,8 @@ constexpr bool is_scalar = std::is_arithmetic_v<T> || CodeOf<T>::is;
 template <class T>
 constexpr bool is_integer = std::is_integral_v<T> || CodeOf<T>::is;
 
-/// Numbers of one point; what a value has more is cut, what it lacks stays as it is.
+/// Writes a value as the numbers of one point: numbers that have no place are cut, places without a
+/// number stay as they are.
 template <class T>
 void put(const T& value, std::span<double> to) {
   if constexpr (requires { value.has_value(); }) {
@@ -75,8 +76,8 @@ void take(T& value, std::span<const double> from, std::size_t rows) {
   }
 }
 
-/// What a dataset of points is described by, whatever its type; its dimensions are those behind the
-/// points, of an axis its own.
+/// What describes a dataset of points, whatever its type. Its dimensions are those behind the
+/// points; an axis has its own dimension.
 struct Facts : columns::Facts {
   bool is_integer = false;
   std::string words{};  ///< of codes, as words_attribute; empty: none
@@ -87,9 +88,9 @@ template <class Row>
 struct PointColumn {
   Facts facts{};
   std::function<void(const Row&, std::span<double>)> put{};
-  /// @param rows  size of its first dimension
+  /// @param rows  size of the dataset's first dimension
   std::function<void(Row&, std::span<const double>, std::size_t rows)> take{};
-  bool is_of_motion = false;  ///< not known where the motion failed
+  bool is_of_motion = false;  ///< its numbers are not known where the motion failed
 };
 
 /// Words of codes, and what they mean for people.

@@ -25,7 +25,7 @@ class TakenPlace : public FileError {
 /// What a file may take the place of, beside nothing and an empty file.
 enum class Replaces {
   own_results,   ///< results (HDF5) of this program
-  own_pictures,  ///< its pictures, pages, answers and exports
+  own_pictures,  ///< pictures, pages, answers and exports of this program
   anything,
 };
 
@@ -62,8 +62,9 @@ class FileReplacement {
   PassingFile temporary_{};
 };
 
-/// What may be replaced: any file that begins as those of this program do, else as given.
-/// @param head  how they begin
+/// What a file may replace: anything if the file at the place begins as those of this program do,
+/// else `what`.
+/// @param head  how files of this program begin
 Replaces replaces_own(const std::filesystem::path& place, std::string_view head, Replaces what);
 
 /// Replaces a file by what f writes.

@@ -21,9 +21,9 @@ constexpr int result_format = 1;
 struct ResultEntry {
   std::string path;  ///< "/trajectory/x"; "/trajectory@period" is an attribute
   ObjectKind kind = ObjectKind::real;
-  /// Its dimensions by name, "stations samples": those of one name have one size throughout a file.
-  /// "+" behind a name: at least one element. A number is a size. "point" stands for the dimensions
-  /// of a study, one per axis. Attributes have none.
+  /// Its dimensions by name, "stations samples": dimensions of one name have one size throughout a
+  /// file. "+" behind a name: at least one element. A number is a size. "point" stands for the
+  /// dimensions of a study, one per axis. Attributes have none.
   std::string sizes;
   ValidValues values{};
   bool is_optional = false;  ///< else it is there wherever the first entry of its set is
@@ -41,7 +41,7 @@ std::vector<DimensionName> dimensions_of(std::string_view sizes);
 /// Entries that a file has together or not at all; the first one says which.
 struct ResultSet {
   std::vector<ResultEntry> entries;
-  std::vector<std::string> needs{};  ///< what must be there too, of other sets
+  std::vector<std::string> needs{};  ///< entries of other sets that must be there, too
 };
 
 /// All that whirl reads from results.

@@ -1,5 +1,5 @@
 #pragma once
-/// Rows of a large study beside its result file: what a saving costs is what is new.
+/// Rows of a large study beside its result file: a saving costs no more than the rows that are new.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,14 +13,13 @@ namespace whirl::inline io {
 
 /// Numbered rows of bytes, appended and never changed, each with its checksum.
 ///
-/// Killed at any moment, the process leaves all rows of earlier appends; of the last one those that
-/// reached the disk. What is behind a row that is not whole is dropped when the journal is opened
-/// to go on. A process that has it open keeps others out.
+/// Killed at any moment, the process leaves all rows of earlier appends; of the last append those
+/// rows that reached the disk. A row that is not whole, and all behind it, is dropped when the
+/// journal is opened to go on. A process that has the journal open keeps others out.
 ///
-///     "whirlrow" format key crc32    then for each row:    number size crc32 bytes
+///     "whirlrow" format crc32 key    then for each row:    number size crc32 bytes
 ///
-/// Numbers are those of the machine, of 32 bits, and 64 bits where they are a row's number or the
-/// key.
+/// Numbers are those of the machine: of 64 bits for a row's number and the key, else of 32 bits.
 class RowJournal {
  public:
   struct Row {
@@ -58,7 +57,7 @@ class RowJournal {
   /// @throws FileError
   void clear();
 
-  /// Takes the file away; no other function may be called afterwards.
+  /// Removes the file; no other function may be called afterwards.
   void remove();
 
  private:

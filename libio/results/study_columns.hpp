@@ -2,7 +2,8 @@
 /// Studies of many points: into a result file and back, and as what a file is checked against.
 ///
 /// A dataset has the shape of the study, then that of its column. Points that are not computed are
-/// NaN, or -1 in columns of integers; `done` tells them apart, and is left out once all are.
+/// NaN, or -1 in columns of integers; `done` says which points are computed, and is left out once
+/// all are.
 
 #include <algorithm>
 #include <functional>
@@ -37,21 +38,22 @@ class StudyWriter {
   StudyWriter(ResultWriter& file, std::string_view group, const ColumnSizes& sizes);
 
   std::string path(std::string_view key) const { return group_ + '/' + std::string(key); }
-  /// Enters a dataset along a dimension; it has been written.
+  /// Notes a dataset along a dimension, which has been written before.
   void add_axis(const std::string& dimension, const std::string& path, Eigen::Index size);
   /// The dataset along a dimension; empty: none is known.
   std::string axis(const std::string& dimension) const;
-  /// Writes the parameters of the points, behind the dimension that leads, if there is one.
+  /// Writes the parameters of the points, whose dimensions come behind `leads`, if that is a known
+  /// dimension.
   void write_parameters(const std::vector<ParameterAxis>& parameters, const std::string& leads);
   /// Numbers that a column has of a point.
   std::size_t width(const Facts& column) const;
   /// @throws WritingGivenUp
   void go_on() const { file_.go_on(); }
-  /// Begins the dataset of a column; the numbers of one point come after those of the other.
+  /// Begins the dataset of a column; its numbers come point after point.
   DatasetBlocks begin_points(const Facts& column);
   /// @param values  of all points
   void write_points(const Facts& column, std::span<const double> values);
-  /// @param is_done  whether a point is
+  /// @param is_done  whether a point is computed
   void write_done(std::size_t points, const std::function<bool(std::size_t)>& is_done);
 
  private:
@@ -80,15 +82,15 @@ struct StoredColumn {
   std::string path;
   std::size_t width = 1;  ///< numbers of a point
   std::size_t rows = 1;   ///< size of its first dimension
-  /// Per code of the file that of the same word here, -1 for words that are unknown; none: they are
-  /// the same.
+  /// For every code of the file the code that the same word has here, -1 for unknown words; none:
+  /// the codes are the same.
   std::optional<std::vector<double>> codes{};
 
   /// The numbers of some points, one after the other.
   std::vector<double> numbers(std::size_t first, std::size_t points) const;
 };
-/// Nothing if it may be missing and is.
-/// @throws FileError  if it is not of so many points
+/// The column in a file; nothing if it is missing and may be.
+/// @throws FileError  if the column is not of so many points
 std::optional<StoredColumn> stored_column(const ResultReader& file, const std::string& group,
                                           const Facts& column, std::size_t points,
                                           Missing missing = Missing::refused);
@@ -97,7 +99,7 @@ std::size_t stored_points(const ResultReader& file, const std::string& group);
 /// Which points a file has.
 std::vector<bool> read_done(const ResultReader& file, const std::string& group, std::size_t points);
 
-/// What a file is checked against that has a column of points.
+/// The entry of a column of points, which files are checked against.
 ResultEntry entry_of(const std::string& group, const Facts& column);
 
 }  // namespace study_columns
@@ -187,13 +189,13 @@ void write_study(ResultWriter& file, const std::vector<ParameterAxis>& parameter
 /// How rows are read.
 struct RowReading {
   study_columns::Missing missing = study_columns::Missing::refused;
-  std::function<bool(std::size_t)> is_wanted{};  ///< whether a point is; empty: all are
+  std::function<bool(std::size_t)> is_wanted{};  ///< whether a point is wanted; empty: all are
   std::size_t most_numbers = numbers_at_once;    ///< in memory
 };
 
 /// Calls f with the number and the row of every point that a file has of a study, in their order.
-/// @param points  how many it has
-/// @throws FileError  as ResultReader, and if it has another number of points
+/// @param points  how many points the study has
+/// @throws FileError  as ResultReader, and if the file has another number of points
 template <class Result, class F>
 void each_stored_row(const ResultReader& file, std::size_t points, const F& f,
                      const RowReading& reading = {}) {
@@ -213,7 +215,7 @@ void each_stored_row(const ResultReader& file, std::size_t points, const F& f,
   }
   const std::size_t at_once = std::max<std::size_t>(1, reading.most_numbers / of_point);
   for (std::size_t first = 0; first < points; first += at_once) {
-    std::vector<std::pair<std::size_t, Row>> rows;  // behind the first point of the block
+    std::vector<std::pair<std::size_t, Row>> rows;  // by their numbers within the block
     const std::size_t count = std::min(at_once, points - first);
     for (std::size_t i = 0; i < count; ++i) {
       const bool is_wanted = !reading.is_wanted || reading.is_wanted(first + i);
@@ -235,7 +237,7 @@ void each_stored_row(const ResultReader& file, std::size_t points, const F& f,
 }
 
 /// Reads the points of a study, to go on from.
-/// @return  a result that knows nothing else
+/// @return  a result with these points and nothing else
 /// @throws FileError  as each_stored_row
 template <class Result>
 Result read_study(const ResultReader& file, std::size_t points) {
@@ -246,8 +248,8 @@ Result read_study(const ResultReader& file, std::size_t points) {
   return result;
 }
 
-/// What a file holds of a study, to be shown: its points, or some of them, and the members that say
-/// what they are of. What a file of an earlier version is without is as in a new row.
+/// What a file holds of a study, to be shown: its points, or some of them, and the members that
+/// describe the points. Columns that a file of an earlier version lacks are as in a new row.
 /// @throws FileError  as ResultReader
 template <class Result>
 Result stored_study(const ResultReader& file, const CoarseGrid& grid = {}) {
@@ -302,7 +304,7 @@ StoredParameter stored_parameter(const ResultReader& file, const std::string& pa
 /// The parameters of a study's points.
 std::vector<StoredParameter> stored_parameters(const ResultReader& file, std::string_view group);
 
-/// What a file is checked against that holds a study.
+/// The entries that a file with a study is checked against.
 /// @param parameters  entries of its parameters
 template <class Result>
 ResultSet study_schema(const std::vector<ResultEntry>& parameters) {

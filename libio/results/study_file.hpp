@@ -1,6 +1,6 @@
 #pragma once
-/// The file of a study, which holds what is done at every moment, and from which the same line goes
-/// on.
+/// The file of a study, which at every moment holds what is done, and from which the same command
+/// line goes on.
 
 #include <chrono>
 #include <functional>
@@ -23,28 +23,29 @@ class ResultWriter;
 /// Which study it is, and where its file is.
 struct StudyPlace {
   std::string file{};  ///< empty: there is none
-  /// Files of parts of the study, whose points it has from the beginning.
+  /// Files of parts of the study, whose points the study has from the beginning.
   std::vector<std::string> joins{};
   bool restarts = false;  ///< whatever the file holds is replaced
   Call call{};
   std::string model{};                       ///< text of the model
   std::string version{};                     ///< of the program
-  std::string start_file{};                  ///< result that its motions go on from; empty: none
-  std::optional<EarlierEnd> start{};         ///< the end of that
+  std::string start_file{};                  ///< result that the motions go on from; empty: none
+  std::optional<EarlierEnd> start{};         ///< the end of that result
   std::chrono::milliseconds patience{2000};  ///< what a saving may take once the study is to stop
 };
 
 /// Writes where the motions of a study begin, if that is the end of another result.
 void write_start(ResultWriter& file, const StudyPlace& place);
 
-/// It holds what is done at every moment, and an earlier run of the same study is gone on with.
-/// Without a file it does nothing.
+/// Holds at every moment what is done, and goes on with an earlier run of the same study. Without a
+/// file it does nothing.
 class StudyFile {
  public:
   /// Makes a file with the facts of the call in it.
   using Begin = std::function<std::unique_ptr<ResultWriter>()>;
   /// @param write  adds what is computed so far
-  /// @param take   takes over what an earlier run has left; not called if it restarts
+  /// @param take   takes over what an earlier run has left in the file, unless the study restarts,
+  ///               and what files of parts hold
   /// @param is_stopped  whether the study ends at once: a saving that takes long is given up then
   /// @throws FileError  if the file cannot be written or is of another study
   StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWriter&)> write,
@@ -55,8 +56,8 @@ class StudyFile {
   /// @throws FileError
   void take_rows(const RowJournal::ReadRow& f);
 
-  /// Keeps points that are new: beside the file while writing all of it takes long, and in it now
-  /// and then.
+  /// Keeps points that are new: beside the file while writing the whole file takes long, and now
+  /// and then in the file.
   /// @param pack  gives the bytes of a point
   void add(std::span<const std::size_t> points,
            const std::function<std::string(std::size_t point)>& pack);
@@ -64,7 +65,7 @@ class StudyFile {
   /// Writes the whole file.
   void save();
 
-  /// Nothing more comes: what is beside the file and in it, too, is taken away.
+  /// To be called when nothing more comes: removes what is beside the file, if the file has it all.
   void finish();
 
  private:
@@ -72,9 +73,9 @@ class StudyFile {
   std::string key() const;
   RowJournal& journal();
   bool is_dear() const;
-  /// Whether somebody waits for the end while the whole file is written, and need not: it has been
+  /// Whether to give up writing the whole file, as somebody waits for the end: the file has been
   /// written before, and what is new is beside it.
-  /// @param since  when that was begun
+  /// @param since  when the writing was begun
   bool is_given_up(clock::time_point since) const;
 
   StudyPlace place_;
@@ -86,7 +87,7 @@ class StudyFile {
   std::optional<RowJournal> journal_{};
   bool is_current_ = false;         ///< the file has all that was added
   clock::duration cost_{};          ///< of writing the whole file, the last time
-  clock::time_point next_whole_{};  ///< when to do so again, with a journal
+  clock::time_point next_whole_{};  ///< when to write it again, with a journal
 };
 
 }  // namespace whirl::inline io

@@ -18,7 +18,7 @@ Parsed<Stripe> parse_stripe(std::string_view text);
 /// The part of a study that a value of --part asks for; all, if it is empty.
 /// @throws ModelError  naming the option
 Stripe stripe_named(const std::string& part);
-/// The same of a call.
+/// The part of a study that a call asks for.
 Stripe stripe_of(const Call& call);
 /// The call of the whole study.
 Call without_part(Call call);

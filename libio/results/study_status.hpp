@@ -17,17 +17,17 @@ class ResultWriter;
 struct StudyWork {
   double seconds = 0.0;  ///< that all runs of it have computed so far [s]
   std::string host{};    ///< machine of the last one
-  int process = 0;       ///< its number there
+  int process = 0;       ///< number of the last one there
 };
 
 /// This process, on this machine.
 StudyWork this_work(double seconds);
 void write_work(ResultWriter& file, const StudyWork& work);
-/// Nothing: the file is of an early version, or of no study.
+/// Reads what write_work wrote; nothing: the file is of an early version, or of no study.
 std::optional<StudyWork> read_work(const ResultReader& file);
 
-/// Whether all groups say that nothing is left to be computed, of those that say something; a part
-/// of a study never says so.
+/// Whether no group says that something is left to be computed; the file of a part of a study
+/// always says that something is left.
 bool says_complete(const ResultReader& file);
 
 /// How far a study is.
@@ -35,10 +35,10 @@ struct StudyStatus {
   std::string file{}, verb{};
   std::string saved{};              ///< when its file was written [UTC]
   long done = 0;                    ///< points that are computed
-  std::optional<long> points{};     ///< of all; nothing: of branches nobody knows beforehand
-  std::optional<long> failed{};     ///< of those that are done; nothing: none is marked so
+  std::optional<long> points{};     ///< of all; nothing: of branches, not known beforehand
+  std::optional<long> failed{};     ///< of those that are done; nothing: not marked, as of branches
   bool is_complete = false;         ///< nothing is left to be computed
-  std::optional<bool> is_running;   ///< nothing: nobody knows, as it was on another machine
+  std::optional<bool> is_running;   ///< nothing: not known, as it ran on another machine
   std::optional<double> rate{};     ///< points per second of all runs so far [1/s]
   std::optional<double> left{};     ///< at that rate [s]
   std::optional<StudyWork> work{};  ///< the last one

@@ -13,7 +13,7 @@ class TemporaryFolder {
  public:
   /// @param what    for its name: "animate"
   /// @param beside  a file
-  /// @throws FileError  if there can be none
+  /// @throws FileError  if no folder can be made
   TemporaryFolder(const std::string& what, const std::filesystem::path& beside);
 
   const std::filesystem::path& path() const { return folder_.path(); }

@@ -8,11 +8,12 @@ namespace whirl::inline io {
 class ResultReader;
 class ResultWriter;
 
-/// Group /torus: the circle, those along the parameter, and what the walk goes on from.
+/// Group /torus: the circle, the circles along the parameter, and what the walk goes on from.
 /// @param result  of the torus
 void write_torus(ResultWriter& file, const TorusBranch& torus, TorusResult result);
 
-/// The same again, bit by bit; a circle without points where the file holds nothing to go on from.
+/// Reads the circles again, bit by bit; a circle without points if the file holds nothing to go on
+/// from.
 /// @param states  of the circle's points
 /// @throws FileError  if the file holds something else
 TorusBranch read_torus(const ResultReader& file, Eigen::Index states);

@@ -24,8 +24,8 @@ struct BareSpeed {
 /// Whether a value, a range or a list of values is of bare numbers.
 bool is_bare(std::string_view text);
 
-/// What was given by an option, if it is a bare speed. Zero is the same in every unit, and what is
-/// no number is told by whoever reads it.
+/// What was given by an option, if it is a bare speed. Zero is none, as it is the same in every
+/// unit, nor is what is no number, which its reader tells.
 std::optional<BareSpeed> bare_speed(const std::string& option, const std::string& value);
 
 /// Where a command line gives speeds; empty: not there.
@@ -39,7 +39,7 @@ struct SpeedOptions {
   std::vector<std::pair<std::string, std::string>> others{};
 };
 
-/// The bare ones of them, of the model's operation.speed where a path is given.
+/// The bare speeds among these options; of options with a path, only those of operation.speed.
 std::vector<BareSpeed> bare_speeds(const SpeedOptions& given);
 
 }  // namespace whirl::inline io

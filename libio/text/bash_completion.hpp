@@ -10,7 +10,7 @@ namespace whirl::inline io {
 struct CompletedVerb {
   std::vector<std::string> names;       ///< its name and its aliases
   std::vector<std::string> options;     ///< "--speed"
-  std::vector<std::string> with_value;  ///< those of them that want a value that is no file
+  std::vector<std::string> with_value;  ///< options that want a value that is no file
 };
 
 /// A script that completes verbs, their options and names of files.

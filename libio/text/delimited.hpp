@@ -34,9 +34,9 @@ struct TableLine {
 /// Lines of a table that are no comments (#, !, %, //) and not empty, the names of columns first.
 ///
 /// Titles above the names are left out: the names are the line that names most columns, two or more
-/// of them, before the first line of numbers. Some programs write the names as a comment: the one
-/// right above the first line stands for the names if it has two known ones or more, and that line
-/// is one of numbers.
+/// of them, before the first line of numbers. Some programs write the names as a comment: the
+/// comment right above the first line stands for the names if it has two known names or more, and
+/// the first line is one of numbers.
 ///
 /// @param known_names  how many columns a line names
 std::vector<TableLine> table_lines(
@@ -105,15 +105,15 @@ struct NameAndUnit {
   bool has_unit = false;
 };
 
-/// Takes a unit in brackets off a cell; one behind a comma, a blank or "_" only if nothing else is
-/// known.
-/// @param is_known  whether a name with a unit is one of a column; with an empty unit, without one
+/// Takes a unit in brackets off a cell; a unit behind a comma, a blank or "_" only if the whole
+/// cell is no known name.
+/// @param is_known  whether a column has a name with a unit; empty unit: a name without one
 NameAndUnit name_and_unit(
     const std::string& cell,
     const std::function<bool(const std::string&, const std::string&)>& is_known);
 
-/// Tells problems of one cause once: of those from `first` on that differ by nothing but their
-/// lines and numbers the first stays, and says how many more rows have it.
+/// Tells problems of one cause once: of problems from `first` on that differ only by their lines
+/// and numbers, the first one stays and says how many more rows have it.
 void tell_once(std::vector<Problem>& problems, std::size_t first);
 
 }  // namespace whirl::inline io

@@ -15,8 +15,8 @@ enum class FileKind {
   stream,   ///< also a pipe or a device: for names that somebody gave on the command line
 };
 
-/// Bytes that a model, a table, a list of records or a model of another program has at most; and a
-/// record of a measurement.
+/// The most bytes of a model, a table, a list of records or a model of another program; and those
+/// of a record of a measurement.
 constexpr std::size_t most_text_bytes = std::size_t{1} << 28u;
 constexpr std::size_t most_record_bytes = std::size_t{1} << 32u;
 

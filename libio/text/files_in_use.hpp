@@ -9,18 +9,19 @@
 
 namespace whirl::inline io {
 
-/// What stands behind a symbolic link, and behind those that it leads to, there or not.
-/// @return  another path itself; an empty path: the links lead in a circle
+/// The path that a symbolic link leads to, and further links behind it, whether or not a file is
+/// there.
+/// @return  the path itself if it is no link; empty if the links lead in a circle
 std::filesystem::path behind_links(const std::filesystem::path& path);
 
-/// Whether two names are those of one file, there or not.
+/// Whether two names are those of one file, whether or not the file is there.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// The list of a call. Every reader of files and every writer asks the one of its thread; where
-/// there is none, everything may be read and written.
+/// The list of a call's files. Every reader and every writer of files asks the list of its thread;
+/// without a list everything may be read and written.
 class FilesInUse {
  public:
-  /// Begins a list; within a call that has one, that one goes on.
+  /// Begins a list; within a call that has a list, that list goes on.
   FilesInUse();
   ~FilesInUse();
   FilesInUse(const FilesInUse&) = delete;
@@ -29,7 +30,7 @@ class FilesInUse {
  private:
   struct Use {
     std::filesystem::path place;
-    std::string by;  ///< option, or "it" for a file that is named otherwise
+    std::string by;  ///< an output's option; of a file that is read, "--from reads it"
     bool is_last = false;
   };
   friend std::string problem_of_reading(const std::filesystem::path&, std::string_view);
@@ -37,15 +38,15 @@ class FilesInUse {
   friend std::string problem_of_writing(const std::filesystem::path&);
   friend void begin_last_output(const std::filesystem::path&);
 
-  /// What is said of a file that is read; null: it is not.
+  /// The entry of a file that is read; null: the file is not read.
   const Use* reading(const std::filesystem::path& place) const;
 
-  bool is_first_ = false;  ///< it is the list
+  bool is_first_ = false;  ///< whether this object has begun the list
   std::vector<Use> read_{}, outputs_{};
 };
 
-/// What is read meanwhile in this thread is what an output takes the place of or goes on from:
-/// looking at it does not keep it.
+/// While an object of this class lives, a file that this thread reads is one that an output
+/// replaces or goes on from: reading it does not keep it from being replaced.
 class LooksAtOutput {
  public:
   LooksAtOutput();

@@ -9,7 +9,7 @@
 ///   };
 ///
 /// A field may be such a struct, too. Help, manual, completion and reader all work from these
-/// structs, as those of model files do from fields (libbase/structs/field.hpp).
+/// structs, as reader and manual of model files do from fields (libbase/structs/field.hpp).
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@
 
 namespace whirl::inline io {
 
-/// The whole numbers that an option takes. Both ends are said where it is declared, so that no
+/// The whole numbers that an option takes. Both ends stand where the option is declared, so that no
 /// number from outside costs more than somebody thought of.
 struct Whole {
   long least, most;
@@ -56,7 +56,7 @@ Parsed<Value> parse_value(const std::string& text) {
 /// What becomes of the file whose name is the value of an option.
 enum class FileUse {
   none,     ///< the value is no name of a file
-  read,     ///< or of several, where the placeholder says so: "FILE,..."
+  read,     ///< the verb reads it, or several: placeholder "FILE,..."
   written,  ///< the verb writes it
   stem      ///< the verb writes files whose names begin so
 };
@@ -102,7 +102,7 @@ struct Option {
   explicit operator bool() const { return value.has_value(); }
   const Value& operator*() const { return *value; }
   Value value_or(Value otherwise) const { return value.value_or(std::move(otherwise)); }
-  /// A value that can be read and means nothing.
+  /// The error of a value that can be read and means nothing.
   /// @param problem  what would be right
   ModelError wrong(std::string problem) const {
     return wrong_option(std::string(name), text, std::move(problem));
@@ -161,8 +161,7 @@ struct OptionSpec {
   std::string range = "";      ///< of whole numbers: "1 to 100 000"
   bool is_list = false;
   FileUse use = FileUse::none;
-  /// That a file may have which is written, beside those that say nothing of what is in a file;
-  /// empty: any.
+  /// Endings that a written file may have, beside endings that say no format; empty: any.
   std::string_view endings = "";
   std::string_view goes_with = "";  ///< the option without which it counts for nothing; empty: none
 
@@ -177,7 +176,7 @@ inline std::string help_of(const OptionSpec& option) {
   return option.otherwise.empty() ? help : fmt::format("{} ({})", help, option.otherwise);
 }
 
-/// An option as it is before it is given.
+/// An option as the help tells it, with its default.
 template <class Value>
 OptionSpec spec_of(const Option<Value>& option) {
   OptionSpec spec{option.name, option.placeholder, option.help};
@@ -199,7 +198,7 @@ inline OptionSpec spec_of(const ListOption& list) {
   return {list.name, list.placeholder, list.help, "", "", true};
 }
 
-/// Values of options that are given, by name: one of most, an empty one of a flag.
+/// Values of options that are given, by name: most have one value, a flag has an empty one.
 using GivenValues = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 /// Gives an option its value.
@@ -217,7 +216,7 @@ inline void take(ListOption& list, const std::vector<std::string>& given) {
   list.values = given;
 }
 
-/// Calls f with every option of a struct, also of those that are fields of it.
+/// Calls f with every option of a struct, also with those of structs that are its fields.
 template <class Options, class F>
 void for_each_option(Options& options, const F& f) {
   const auto visit = [&](auto& field) {

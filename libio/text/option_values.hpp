@@ -11,13 +11,13 @@
 
 namespace whirl::inline io {
 
-/// An option that means nothing.
+/// The error of an option that means nothing.
 /// @param option   without dashes
-/// @param value    as it was given; empty: it was not
+/// @param value    as it was given; empty: not given
 /// @param problem  what would be right
 ModelError wrong_option(const std::string& option, const std::string& value, std::string problem);
 
-/// Value of an option as a function reads it that gives a Parsed.
+/// Value of an option, as read by a function that gives a Parsed.
 /// @throws ModelError  naming the option and its value, if it means nothing
 template <class Parse>
 auto parsed_option(const std::string& option, const std::string& value, const Parse& parse) {
@@ -29,7 +29,7 @@ auto parsed_option(const std::string& option, const std::string& value, const Pa
 /// What is wrong with the name of a file that is written; empty: nothing. Wrong is an ending that
 /// says another format than the file will have, and "-", which is no file.
 /// @param endings  that are right, ".json .txt"; empty: the format is as the ending says. An ending
-///                 that says no format, and none, are right in any case.
+///                 that says no format, and a name without an ending, are right in any case.
 std::string ending_problem(std::string_view file, std::string_view endings);
 
 /// A whole number from `least` to `most`.
@@ -56,7 +56,7 @@ Parsed<std::vector<double>> parse_frequencies(std::string_view text);
 std::vector<double> usual_speeds(double operating_speed);
 
 /// The speeds that --over goes through, at least the first and the last [rad/s].
-/// @param otherwise  where it varies no speed
+/// @param otherwise  speed where --over varies none
 std::vector<double> speeds_over(const std::vector<std::string>& over, double otherwise);
 
 /// "expected stationary or rotating", "expected svg, png or pdf"

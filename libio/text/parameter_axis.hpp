@@ -12,13 +12,13 @@ namespace whirl::inline io {
 
 /// What a study varies in a model, and the values it takes.
 struct ParameterAxis {
-  /// Such as contact.seal.friction; several with commas, for one value at all; one with a minus
-  /// before it has the negative of that.
+  /// Path such as contact.seal.friction. Several paths, with commas between, all have the value; a
+  /// path with a minus before it has the negative value.
   std::string path;
   std::string unit;            ///< SI unit of the values; empty: none was written
   std::vector<double> values;  ///< [SI]
-  std::string shown_unit;      ///< as it was written, for people
-  double shown_scale = 1.0;    ///< SI units in one of these
+  std::string shown_unit;      ///< unit as it was written, for people
+  double shown_scale = 1.0;    ///< SI units in one shown unit
 
   double shown(std::size_t index) const { return values[index] / shown_scale; }
   /// "operation.speed [rpm]"
@@ -56,14 +56,14 @@ std::string label_of(const ParameterName& name);
 /// @param points  of a range without a step; 0: it must have one
 Parsed<ParameterAxis> parse_axis(std::string_view text, int points);
 
-/// Reads all of them.
+/// Reads all axes.
 /// @param least, most  how many are right
-/// @throws ModelError  naming the one that is wrong, or saying how many there should be, of axes
-///                     and of points in all
+/// @throws ModelError  naming an axis that is wrong, or saying how many axes, or points in all,
+///                     there should be
 std::vector<ParameterAxis> parse_axes(const std::vector<std::string>& texts, int points,
                                       std::size_t least, std::size_t most);
 
-/// Parts of a text between a sign; one more than there are signs.
+/// Parts of a text between the occurrences of a character; one part more than occurrences.
 std::vector<std::string> split(std::string_view text, char at);
 
 }  // namespace whirl::inline io

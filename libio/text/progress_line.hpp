@@ -14,19 +14,19 @@ std::string rate_text(long done, long total, double elapsed);
 /// "120 of 600, 2.5/s, 3:12 left".
 std::string progress_text(long done, long total, double elapsed);
 
-/// A line on standard error: on a terminal one that is rewritten every second, from the first one
-/// on; elsewhere, as in the log of a job, one after the other.
+/// Progress on standard error: on a terminal a line that is rewritten every second, from the first
+/// second on; elsewhere, as in the log of a job, line after line.
 ///
-/// It is drawn by a thread of its own, so that it is there however long a step takes.
+/// A thread of its own draws the line, however long a step of the work takes.
 class ProgressLine {
  public:
-  /// @param what    goes on
+  /// @param what    what goes on
   /// @param period  between two lines where there is no terminal, and before the first one [s]
   ProgressLine(std::string what, bool shows, double period = 60.0);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
-  /// @param total  0: nobody knows, and the time alone is told
+  /// @param total  0: not known, the time alone is told
   void update(long done, long total);
 
  private:

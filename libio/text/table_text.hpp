@@ -9,7 +9,7 @@ namespace whirl::inline io {
 /// Lines of equal columns; a column is set right if all its cells begin with a digit, sign or dash,
 /// are empty or "·".
 ///
-/// Where that is wider than it may be, heads of numbers and the widest texts are folded, and
+/// Where the table is wider than `limit`, heads of numbers and the widest texts are folded, and
 /// columns that still find no place follow in further blocks below, the first column before them
 /// again.
 ///

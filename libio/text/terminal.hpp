@@ -1,5 +1,5 @@
 #pragma once
-/// Where a program prints: how wide that may be, and that it is there at all.
+/// Where a program prints: how wide a line may be, and whether there is anything to print to.
 
 #include <cstddef>
 #include <cstdio>
@@ -10,10 +10,10 @@
 namespace whirl::inline io {
 
 /// Columns of the terminal: those of the environment's COLUMNS, else those of standard output. 0
-/// where it is no terminal, as in a pipe: as wide as it takes.
+/// where standard output is no terminal, as in a pipe: lines may be of any width.
 std::size_t terminal_columns();
 
-/// A text whose longer lines go on below, broken at blanks and indented as they are.
+/// A text whose long lines go on below, broken at blanks and indented as their beginnings are.
 /// @param columns  0: no limit
 std::string folded(const std::string& text, std::size_t columns);
 
@@ -24,7 +24,7 @@ std::vector<std::string> folded_words(const std::string& line, std::size_t colum
 /// for the ends of lines and tabs, or one that turns the direction of what follows.
 bool steers_terminal(std::string_view character);
 
-/// A text that only shows something: what steers a terminal, and bytes that are no UTF-8, become
+/// A text that steers no terminal: characters that do so, and bytes that are no UTF-8, become
 /// U+FFFD.
 std::string shown_text(std::string_view text);
 
@@ -35,8 +35,9 @@ std::string shown_line(std::string_view text);
 /// titles and files of strangers stand in it.
 void say(std::FILE* to, std::string_view text);
 
-/// Takes the places of standard streams that are closed: or else a result file would get the number
-/// of one, and what is printed there would end in it. To what is not there nothing can be printed.
+/// Opens /dev/null in place of standard streams that are closed: else a result file would get the
+/// number of such a stream, and what is printed there would end in the file. Printing to a standard
+/// output that was closed still fails.
 void fill_standard_streams();
 
 }  // namespace whirl::inline io

@@ -3,8 +3,10 @@
 /// angles in rad and speeds in rad/s.
 ///
 ///   quantity = number [blanks] [unit]
-///   unit     = ["1" "/"] factor { ("." | "*" | "/" | blanks) factor },   "/" divides by the next
-///   factor factor   = [prefix] symbol [["^"] exponent],   exponent a multiple of a half
+///   unit     = ["1" "/"] factor { ("." | "*" | "/" | blanks) factor }
+///   factor   = [prefix] symbol [["^"] exponent]
+///
+/// "/" divides by the next factor; an exponent is a multiple of a half.
 ///
 /// Also understood: the signs for micro, degree, product dot, superscript 2 and 3.
 

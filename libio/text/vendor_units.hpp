@@ -1,5 +1,5 @@
 #pragma once
-/// Units as tables of vendors write them, which are not how model files do.
+/// Units as tables of vendors write them, which differ from the units of model files.
 
 #include <string>
 #include <string_view>

@@ -21,7 +21,7 @@ inline std::size_t character_length(std::string_view text) {
     if ((byte(i) & 0xc0u) != 0x80u) return 0;
     code = code << 6 | (byte(i) & 0x3fu);
   }
-  constexpr unsigned least[] = {0x80, 0x800, 0x10000};  // of this length: no longer way to write it
+  constexpr unsigned least[] = {0x80, 0x800, 0x10000};  // the least character of each length
   const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
   const bool is_none = code == 0xfffe || code == 0xffff || code > 0x10ffff;
   return code < least[length - 2] || is_surrogate || is_none ? 0 : length;

@@ -6,7 +6,7 @@
 
 namespace whirl::inline io {
 
-/// Tables of the parameters, their correlations, what is left of each probe, and models beside one
+/// Tables of the parameters, their correlations, the residual of each probe, and models beside one
 /// another; then the --set lines that go on with these values.
 /// @param model  file of the model
 std::string text_of(const MeasuredFit& found, const std::string& model);

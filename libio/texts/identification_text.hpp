@@ -21,7 +21,7 @@ const ProbeLabel* probe_told_like(const MeasuredIdentification& measured);
 /// What was measured: probes, speed and length of the record.
 std::string text_of(const MeasuredIdentification& measured);
 
-/// Deflection shapes at the strongest peaks, a row for each probe; empty: a probe alone has none.
+/// Deflection shapes at the strongest peaks, a row for each probe; empty: there is only one probe.
 std::string deflection_text(const MeasuredIdentification& measured);
 
 /// Orders along a record: where each is largest.

@@ -8,12 +8,12 @@
 
 namespace whirl::inline io {
 
-/// The unit that people are told vibration in: that of the model's probes.
+/// The unit that people are told vibration in: the unit of the model's probes.
 struct VibrationUnit {
   std::string name = "um";
   double factor = 1e6;  ///< of a length in SI
 };
-/// @throws FileError  for a report of a file, if it is no length
+/// @throws FileError  for a report of a file, if the unit is no length
 VibrationUnit vibration_unit(const LateralReport& report);
 
 /// Cells of the table of passes and failures, with its header.
@@ -24,15 +24,16 @@ std::vector<std::string> check_cells(const LateralCheck& check, const VibrationU
 std::string rule_text(LateralRule rule);
 /// The same in a cell of a table: "17 (1 - 1 / (AF - 1.5)) %".
 std::string short_rule_text(LateralRule rule, const VibrationUnit& unit);
-/// What a reader has to know of amplification factors: which are estimated, which peaks are none.
+/// What a reader has to know of amplification factors: which are estimated, and which peaks are no
+/// critical speeds.
 std::vector<std::string> remarks_on(const LateralReport& report);
 /// The rules that a report was checked by, each once.
 std::vector<LateralRule> rules_of(const LateralReport& report);
 
-/// "2 failed, 1 unknown of 12 checks"
+/// "9 of 12 checks passed, 2 failed, 1 unknown"
 std::string verdict_text(const LateralReport& report);
 
-/// All of it.
+/// The whole report.
 std::string text_of(const LateralStudy& study);
 
 }  // namespace whirl::inline io

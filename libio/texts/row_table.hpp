@@ -29,7 +29,7 @@ struct Shown {
   std::string_view format;  ///< of numbers, as fmt has it, ".2f"; empty: with an engineer's prefix
   std::string heading;      ///< before the unit
 
-  /// With another heading than the key; the unit stands behind it still.
+  /// The column with another heading than its key; the unit still stands behind the heading.
   Shown as(std::string_view other) const;
 };
 Shown shown(std::string_view key, std::string_view unit = "", std::string_view format = "");
@@ -47,7 +47,7 @@ namespace texts {
 /// How a column's numbers become texts.
 struct NumberStyle {
   std::string unit;      ///< that is shown in the heading; empty: none
-  double divisor = 1.0;  ///< SI units in one of these
+  double divisor = 1.0;  ///< SI units in one shown unit
   std::string format;    ///< ".2f"; empty: with an engineer's prefix
   std::string si_unit;   ///< of the column
 };
@@ -86,14 +86,14 @@ std::string value_text(const T& value, const NumberStyle& style, int offset = 0)
 
 }  // namespace texts
 
-/// A column of a table, of rows of a type: one of their columns, their numbers, or a text of its
+/// A column of a table of rows: a column of their type, the numbers of the rows, or a text of its
 /// own.
 template <class Row>
 struct TableColumn {
   std::string heading;
   std::function<std::string(const Row&, int number)> cell;
 
-  /// @throws std::logic_error  if the row has no such column, or one of lists
+  /// @throws std::logic_error  if the row has no such column, or a column of lists
   TableColumn(const Shown& wanted) requires HasColumns<Row> {
     for_each_column<Row>([&](const auto& c) {
       if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {

@@ -15,7 +15,7 @@ struct SomeRows {
   std::string which;  ///< in words
 
   /// @param size  above zero
-  /// @param what  rows are, in the plural
+  /// @param what  what the rows are, in the plural
   SomeRows(std::size_t size, std::string_view what) {
     constexpr std::size_t most = 21;
     const std::size_t stride = std::max<std::size_t>(1, size / (most - 1));

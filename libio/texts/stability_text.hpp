@@ -1,5 +1,6 @@
 #pragma once
-/// What is said of a rotor that is unstable at a speed, beside answers that it does not settle to.
+/// What is said of a rotor that is unstable at a speed, beside responses that it does not settle
+/// to.
 
 #include <string>
 #include <vector>

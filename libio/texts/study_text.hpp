@@ -6,8 +6,8 @@
 
 namespace whirl::inline io {
 
-/// What was there already, what has not settled, what failed, and whether it was stopped.
-/// @param has_file  whether it can go on from a file
+/// What was there already, what has not settled, what failed, and whether the study was stopped.
+/// @param has_file  whether the study can go on from a file
 std::string text_of(const StudyOutcome& outcome, bool has_file);
 
 }  // namespace whirl::inline io

@@ -10,7 +10,7 @@ namespace whirl::inline io {
 /// Largest responses of the stations, and peaks with their amplification and margins.
 std::string text_of(const UnbalanceStudy& study, const Model& model);
 
-/// What keeps the response from being the whole truth, a sentence each.
+/// Why the response is not the whole truth, a sentence for each reason.
 std::vector<std::string> notes_of(const UnbalanceStudy& study);
 
 }  // namespace whirl::inline io

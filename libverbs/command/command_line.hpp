@@ -11,7 +11,7 @@
 
 namespace whirl::inline cli {
 
-/// A model with what was set of it, of a result whose command is run again.
+/// The model of a result whose command is run again, with what was set in the model.
 struct StoredModel {
   std::string text;  ///< empty: there is none
   std::vector<std::string> sets{};

@@ -50,7 +50,7 @@ constexpr std::array field_words{
     FieldWord{"oma", "`whirl identify MODEL --measured FILE --running-modes`"},
 };
 
-/// Where a word leads; empty: it is none of them.
+/// Where a word leads; empty: it is none of field_words.
 constexpr std::string_view place_of(std::string_view word) {
   for (const FieldWord& field : field_words) {
     if (field.word == word) return field.place;

@@ -59,7 +59,7 @@ class Invocation {
   std::string file;                      ///< model or result
   std::vector<std::string> words;        ///< after the file, of verbs that take more
   std::vector<std::string> sets;         ///< PATH=VALUE lines, --speed included
-  std::vector<std::string> sets_before;  ///< those that model_text has in it already
+  std::vector<std::string> sets_before;  ///< sets that model_text has in it already
   GivenValues given;                     ///< all options, from which those of the verb are read
   OutputOptions output;
   std::vector<std::string> line;  ///< the command line, to be stored in results
@@ -73,54 +73,54 @@ class Invocation {
   KeptResult* kept = nullptr;         ///< takes what the file of --out holds
   std::function<void(const std::string& what, long done, long total)> progress{};
   std::function<bool()> is_stopped{};
-  /// A result with the motion that this call would integrate, of verbs that can take it from there.
+  /// A result with the motion that this call would integrate, for verbs that can take a motion from
+  /// a result.
   std::string motion{};
 
-  /// What is given of an option that several verbs have, for what all verbs do alike.
+  /// Values that are given of an option, by its name: for what several verbs do alike.
   std::vector<std::string> values(std::string_view option) const;
-  /// The same of one that is given once; empty: it is not.
+  /// The value of an option that is given once; empty: not given.
   std::string text(std::string_view option) const;
 
-  /// The model; where processes share the work, that of their leader. Asked once.
+  /// The model; where processes share the work, the model of their leader. To be called once.
   /// @throws ModelError, FileError  if it cannot be read, or is stored and starts from another file
   Model model() const;
 
-  /// Its parts, to be stored in results.
+  /// The parts of this call, to be stored in results.
   Call parts() const;
 
   /// What results may take the place of, and what pictures, pages and other files may.
   Replaces result_replaces() const;
   Replaces picture_replaces() const;
 
-  /// The part of a study that it computes.
+  /// The part of a study that this call computes.
   /// @throws ModelError  as stripe_named
   Stripe stripe() const;
-  /// The file of --out, or of this part of it; empty: none.
+  /// The file of --out, or the file of this part of a study; empty: none.
   std::string out_file() const;
 
   /// Whether somebody wants what a result file holds.
   bool wants_result() const { return output.out.is_given || kept; }
-  /// Whether somebody looks at the record of its report, which of many points is large.
+  /// Whether somebody wants the record of the report, which is large for many points.
   bool wants_record() const { return output.json.is_given || kept; }
   /// The file of --out, and what is kept beside it, with the facts of this call in it; or nothing.
   std::unique_ptr<ResultWriter> result_file(const Model& model) const;
-  /// Only what is kept, likewise.
+  /// Only what is kept, with the facts of this call in it; or nothing.
   std::unique_ptr<ResultWriter> kept_file(const Model& model) const;
-  /// Only the file, likewise.
+  /// Only the file of --out, with the facts of this call in it; or nothing.
   std::unique_ptr<ResultWriter> saved_file(const Model& model) const;
 
   /// Reads the options that all verbs have, and adopts what they say for the whole process.
-  /// @throws ModelError, FileError  for a wrong one, and for places where nothing may be written: a
-  ///                                file
-  ///         that is read or needed, another output, an ending that says another format, another
-  ///         call's
+  /// @throws ModelError, FileError  for a wrong option, and for places where nothing may be
+  ///                                written: a file that is read or needed, another output, an
+  ///                                ending that says another format, an output of another call
   void prepare();
-  /// Tells whether to stop. Where nobody else is asked, Ctrl-C asks for it from now on.
+  /// A function that tells whether to stop. Without is_stopped, Ctrl-C asks to stop from now on.
   std::function<bool()> stop_asked() const;
 
  private:
-  /// A stored model opens nothing by itself.
-  /// @throws FileError  if it would, its motion starting from a file that this call does not name
+  /// Checks that a stored model opens no file by itself.
+  /// @throws FileError  if its motion starts from a file that this call does not name
   void require_said_start(const Model& model) const;
   void note_read_files() const;
   void note_written_files();
@@ -133,7 +133,7 @@ class Invocation {
 struct Report {
   Record record;     ///< for --json, without the entries that all verbs have
   std::string text;  ///< for people
-  /// What the numbers leave out or go beyond, a sentence each: printed below the text, in JSON.
+  /// What the numbers leave out or go beyond, a sentence each: printed below the text, and in JSON.
   std::vector<std::string> notes{};
   Failure failure;                 ///< goes to standard error, --quiet or not
   int status = exit_status::done;  ///< or failed or stopped: what was computed is in the report

@@ -15,14 +15,14 @@ namespace whirl::inline cli {
 
 /// A report with the entries that all verbs have (model, version).
 Report begin_report(const Invocation& call);
-/// The same of verbs that take a model, whose speed it says (speed_rpm), with the entries of a
-/// result.
+/// A report of a verb that takes a model, with the model's speed (speed_rpm) and the entries of a
+/// result, too.
 Report begin_report(const Invocation& call, const Model& model, const Record& result = {});
 
-/// Notes what is to be known of a model whose motions are computed: bearing tables that are held
-/// constant at its speed, or at one that --over goes through, those of whose whirl frequencies a
-/// motion takes one, a speed that the machine is not run at, and in what the model of --from
-/// differs.
+/// Adds notes on a model whose motions are computed: bearing tables that are held constant at its
+/// speed, or at a speed that --over goes through; coefficients over whirl frequency, of which a
+/// motion takes those of one frequency; a speed that the machine is not run at; and in what the
+/// model of --from differs.
 void note_model(const Invocation& call, const Model& model, Report& report);
 
 /// Writes the report's notes into a result file, where there are any.
@@ -31,11 +31,11 @@ void write_notes(ResultWriter& file, const Report& report);
 void tell_result(const Invocation& call, Report& report);
 /// Writes the report's notes into a result file, if there is one, commits it, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);
-/// The same of a file of its own, if --out asks for one, with what is written into it.
+/// Writes the file that --out asks for, if it does, by `write`, and commits it as above.
 void write_file(const Invocation& call, const Model& model, Report& report,
                 const std::function<void(ResultWriter&)>& write);
 
-/// Shows how far something long is, from the first number on.
+/// A function that shows how far something long is, from its first call on.
 std::function<void(long done, long total)> progress_of(const Invocation& call, std::string what);
 
 }  // namespace whirl::inline cli

@@ -16,7 +16,7 @@ struct SortedWords {
 };
 
 /// Sorts words.
-/// @return  these, or what is wrong: an unknown option, or one without its value
+/// @return  the sorted words, or what is wrong: an unknown option, or an option without its value
 std::variant<SortedWords, std::string> sorted_words(const std::vector<std::string>& words,
                                                     const std::vector<OptionSpec>& options);
 

@@ -20,7 +20,7 @@ inline Option<std::vector<double>> speeds_option() {
 
 // of motions
 /// Ranges of what several verbs count. Each bounds what a number alone can cost; memory is checked
-/// besides, where it grows with several of them (libbase/system/memory.hpp).
+/// besides, where it grows with several numbers (libbase/system/memory.hpp).
 inline constexpr Whole mode_range{1, 10'000};
 inline constexpr Whole revolution_range{1, 10'000'000};
 inline constexpr Whole discard_range{0, 10'000'000};
@@ -65,13 +65,13 @@ struct StepVerbOptions {
   auto fields() { return std::tie(method, steps); }
 
   /// As ClassifyOptions has it: 0 without rk4.
-  /// @throws ModelError  for a number that is not right, or that nothing takes
+  /// @throws ModelError  for a number that no method takes
   long rk4_steps() const {
     const bool is_rk4 = *method == StepMethod::rk4;
     if (steps.is_given && !is_rk4) throw steps.wrong("goes with --method rk4 only");
     return is_rk4 ? *steps : 0;
   }
-  /// What is to be known of motions by rk4; empty: they are not.
+  /// Notes on motions by rk4; none with another method.
   std::vector<std::string> notes() const {
     if (rk4_steps() == 0) return {};
     return {

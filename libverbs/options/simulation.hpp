@@ -41,9 +41,9 @@ struct IntegrationVerbOptions {
 };
 
 /// The start of a model's motions.
-/// @param from  the result where they go on, if there is one
+/// @param from  the result where the motions go on, if there is one
 Start start_of(const Option<std::string>& from, const Model& model);
-/// Where that, or the model's [start], is the end of another result; nothing: it is not.
+/// The end of the result that --from or the model's [start] names; nothing: neither names one.
 /// @param ranks  that share the work: their leader reads it; null: there are none
 std::optional<EarlierEnd> earlier_start(const Option<std::string>& from, const Model& model,
                                         const Ranks* ranks);

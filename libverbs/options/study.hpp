@@ -21,7 +21,7 @@ struct AxesVerbOptions {
   auto fields() { return std::tie(over, points); }
 };
 
-/// What goes on from a result, and where it is kept.
+/// Whether a study goes on from a result, and from its own file.
 struct KeptVerbOptions {
   Option<std::string> from = from_option();
   Flag restart{"restart", "begin anew, whatever the file of --out holds"};
@@ -59,10 +59,10 @@ StudyPoints study_points(const Invocation& call, const AxesVerbOptions& axes,
 ClassifyOptions study_classify(const StudyVerbOptions& options);
 int study_threads(const Invocation& call);
 
-/// Where the study is kept that a call asks for, and how it is followed; from now on Ctrl-C asks it
-/// to stop.
-/// @param what   is counted
-/// @param notes  for its file
+/// Where the study that a call asks for is kept, and how it is followed; from now on Ctrl-C asks
+/// the study to stop.
+/// @param what   what is counted
+/// @param notes  for the file of the study
 StudyKeeping study_keeping(const Invocation& call, const Model& model,
                            const KeptVerbOptions& options, std::string what,
                            std::vector<std::string> notes = {});

@@ -1,5 +1,5 @@
 #pragma once
-/// Options of orbit, which finds one from a motion or many from random starts.
+/// Options of the verb orbit, which finds one orbit from a motion, or many from random starts.
 
 #include "libverbs/options/orbits.hpp"
 

@@ -7,14 +7,14 @@
 
 namespace whirl::inline io::hdf5 {
 
-/// CRC-32 of bytes, or of these behind others of which it is known.
+/// CRC-32 of bytes, or of bytes behind others whose CRC-32 is `before`.
 std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before = 0);
 
 /// What the end of a file says about its content.
 enum class Seal {
-  none,    ///< no checksum: of an older version, or changed by another program since
+  none,    ///< no checksum: the file is of an older version, or changed by another program
   whole,   ///< the content is the one that was written
-  broken,  ///< it is not
+  broken,  ///< the content is not the one that was written
 };
 
 /// Appends the checksum of a closed HDF5 file to it: a line of text behind what HDF5 calls its end.

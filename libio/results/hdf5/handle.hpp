@@ -34,15 +34,16 @@ class Handle {
     if (id_ >= 0) H5Idec_ref(id_);
   }
   operator hid_t() const { return id_; }
-  /// Hands it over.
+  /// Hands the handle over.
   hid_t release() { return std::exchange(id_, -1); }
 
  private:
   hid_t id_;
 };
 
-/// Before anything else is asked of HDF5, in every thread: errors are ours to print. Nor is there
-/// anything to clean up when the process ends, where HDF5 1.10 would crash after a full disk.
+/// To be called in every thread before anything else is asked of HDF5: HDF5 then prints no errors,
+/// which this program prints itself, and cleans nothing up when the process ends, where HDF5 1.10
+/// would crash after a full disk.
 inline void prepare() {
   [[maybe_unused]] static const herr_t in_process = H5dont_atexit();
   [[maybe_unused]] thread_local const herr_t in_thread =
@@ -66,8 +67,8 @@ inline std::string reason() {
   return text.substr(0, text.find('\''));
 }
 
-/// Something done with an object of a file; turns HDF5's negative results into errors. While it
-/// lasts nobody makes a child.
+/// Something done with an object of a file; turns HDF5's negative results into errors. While an
+/// Attempt lives no child process is made.
 class Attempt {
  public:
   Attempt(const std::filesystem::path& file, std::string_view action, std::string object)
@@ -141,7 +142,7 @@ inline bool exists(hid_t file, const std::string& object) {
   return !object.empty();
 }
 
-/// Calls f with the boxes, as few as there are, that numbers of a dataset from `first` on fill, in
+/// Calls f with the boxes, as few as possible, that numbers of a dataset from `first` on fill, in
 /// their order: f(first indices, sizes, how many numbers). A dataset without dimensions is one
 /// number.
 template <class F>
@@ -164,8 +165,8 @@ void for_each_box(const std::vector<hsize_t>& sizes, hsize_t first, hsize_t coun
   }
 }
 
-/// The space of a box in memory: of one shape with it in the file, HDF5 takes it whole; else number
-/// by number.
+/// The space of a box in memory. It has the shape of the box in the file, since HDF5 then copies
+/// the box whole, and else number by number.
 inline hid_t memory_of(const std::vector<hsize_t>& box) {
   return H5Screate_simple(static_cast<int>(box.size()), box.data(), nullptr);
 }

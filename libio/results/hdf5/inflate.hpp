@@ -1,5 +1,5 @@
 #pragma once
-/// Decompression of what zlib compressed, here because zlib is at home here.
+/// Decompression of what zlib compressed, in this folder since nothing else uses zlib.
 
 #include <cstddef>
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace whirl::inline io::hdf5 {
 
-/// The first bytes, at most so many, of what was compressed; none: it was not, or was damaged
-/// before.
+/// The first `most` bytes, or fewer, of what was compressed; nothing: it was not compressed, or is
+/// damaged within these bytes.
 std::optional<std::string> inflated(std::string_view compressed, std::size_t most);
 
 }  // namespace whirl::inline io::hdf5

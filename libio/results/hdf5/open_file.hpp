@@ -39,11 +39,11 @@ class OpenFile {
   std::vector<double> numbers(const std::string& path) const;
   /// All numbers of so many dimensions.
   std::vector<double> numbers(const std::string& path, std::size_t dimensions) const;
-  /// Complex ones, each as two.
+  /// All complex numbers, each as two numbers.
   std::vector<double> complex_numbers(const std::string& path, std::size_t dimensions) const;
-  /// Those in a box.
+  /// The numbers in a box.
   std::vector<double> numbers(const std::string& path, const Sizes& at, const Sizes& box) const;
-  /// Some, from number `first` on.
+  /// Some numbers, from number `first` on.
   std::vector<double> numbers_from(const std::string& path, std::size_t first,
                                    std::size_t count) const;
   std::vector<int> integers(const std::string& path) const;
