@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libdyn/system/port_balance.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline dyn {
@@ -68,7 +68,7 @@ Sparse held_matrix(const Sparse& K, const Sparse& U, double s) {
 }
 
 Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, double Omega) {
-  Ports p{.system = assembler.uncondensed(Omega), .held = {}};
+  Ports p{.system = assembler.uncondensed(Omega, 0.0), .held = {}};
   const Sparse all = journal_rows(films, assembler, p.system.dofs);
   p.held.ports = independent_rows(Mat(all));  // two films may be at one station
   const Sparse U = chosen_rows(all, p.held.ports.chosen);

@@ -312,6 +312,23 @@ TEST(FilmEquilibrium, BalancesTheLoadsOfBearings) {
   EXPECT_NEAR(fx, 0.0, 1e-9 * weight);
 }
 
+// A rest has no frequency: a bearing whose coefficients follow that of the whirl holds the rotor
+// with those of 0 Hz, whatever the speed.
+TEST(FilmEquilibrium, IsOneOfCoefficientsAtRest) {
+  Model model = MassOnFilm{.Omega = 300.0}.model();
+  const BearingCoefficients soft = test::isotropic(1e5, 0.0), stiff = test::isotropic(4e5, 0.0);
+  Connection spring = test::bearing(test::body("journal"), soft);
+  spring.coefficients = TableBearing{{.speed = {}, .rows = {soft, stiff}, .whirl = {0.0, 400.0}}};
+  model.structure.bearings.push_back(spring);
+  const StaticStudy study = static_study(model, Assembler(model.structure));
+  const double weight = 10.0 * 9.81;
+  const BearingLoad& held = study.at_rest.bearings.at(0);
+  const RunningFilm& film = study.on_films.films.at(0);
+  EXPECT_NEAR(held.fy() + film.fy(), -weight, 1e-9 * weight);
+  EXPECT_NEAR(held.fx() + film.fx(), 0.0, 1e-9 * weight);
+  EXPECT_NEAR(held.fy(), 1e5 * study.at_rest.displacement(1), 1e-9 * weight);
+}
+
 TEST(FilmEquilibrium, LeavesOutWhatIsNotToBeLinearized) {
   Model model = flexible(2e6);
   for (OilFilm& film : model.films) film.is_linearized = false;
