@@ -35,12 +35,30 @@ double side(const std::vector<double>& speeds, const Vec& a, Eigen::Index k, int
   return nan;
 }
 
+/// Numbers of the speeds that are not the one before but for rounding.
+std::vector<Eigen::Index> speeds_apart(const std::vector<double>& speeds) {
+  constexpr double same = 1e-12;
+  std::vector<Eigen::Index> apart;
+  for (Eigen::Index k = 0; k < std::ssize(speeds); ++k) {
+    const double speed = speeds[static_cast<std::size_t>(k)];
+    if (!apart.empty() && speed <= (1.0 + same) * speeds[static_cast<std::size_t>(apart.back())]) {
+      continue;
+    }
+    apart.push_back(k);
+  }
+  return apart;
+}
+
 }  // namespace
 
-std::vector<ResponsePeak> response_peaks(const std::vector<double>& speeds, const Mat& amplitude,
-                                         std::size_t most) {
+std::vector<ResponsePeak> response_peaks(const std::vector<double>& all_speeds,
+                                         const Mat& all_amplitudes, std::size_t most) {
   std::vector<ResponsePeak> peaks;
-  if (amplitude.size() == 0) return peaks;
+  if (all_amplitudes.size() == 0) return peaks;
+  const std::vector<Eigen::Index> apart = speeds_apart(all_speeds);
+  std::vector<double> speeds;
+  for (const Eigen::Index k : apart) speeds.push_back(all_speeds[static_cast<std::size_t>(k)]);
+  const Mat amplitude = all_amplitudes(Eigen::all, apart);
   const Vec largest = amplitude.colwise().maxCoeff().transpose();
   for (Eigen::Index k = 1; k + 1 < largest.size(); ++k) {
     if (!(largest(k) > largest(k - 1) && largest(k) >= largest(k + 1))) continue;

@@ -15,8 +15,9 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double visible_peak =
-    1e-3;                        ///< of a point's largest motion: below, its phase is not looked at
-constexpr double finest = 1e-8;  ///< relative distance of speeds; a sharper turn has no damping
+    1e-3;  ///< of a point's largest motion: below, its phase is not looked at
+constexpr double same_speed = 1e-12;  ///< relative distance of speeds that rounding makes two of
+constexpr double finest = 1e-8;      ///< relative distance of speeds; a sharper turn has no damping
 constexpr double tolerance = 1e-10;  ///< of peaks and their sides, relative
 constexpr double flat_peak = 1e-9;   ///< relative height of a peak that may be rounding
 constexpr double beside_resonance =
@@ -38,7 +39,8 @@ class CurveBuilder {
 
   /// A sample at a speed; false where the response is unbounded.
   bool add(double Omega) {
-    if (samples_.count(Omega) > 0) return true;
+    const auto next = samples_.lower_bound(Omega * (1.0 - same_speed));
+    if (next != samples_.end() && next->first <= Omega * (1.0 + same_speed)) return true;
     const auto u = at(Omega);
     if (!u) return false;
     largest_ = largest_.size() == 0 ? Vec(u->cwiseAbs()) : Vec(largest_.cwiseMax(u->cwiseAbs()));

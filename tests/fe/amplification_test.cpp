@@ -50,6 +50,21 @@ TEST(Amplification, OfAJeffcottRotorIsTheClosedForm) {
   }
 }
 
+// Two speeds that only rounding tells apart, as of two grids, are one: a response that rises has no
+// peak there.
+TEST(Amplification, SpeedsThatRoundingTellsApartMakeNoPeaks) {
+  std::vector<double> speeds;
+  for (const double speed : speeds_to(40.0, 0.5)) {
+    speeds.push_back(speed);
+    speeds.push_back(std::nextafter(speed, 100.0));
+  }
+  Mat amplitude(1, static_cast<Eigen::Index>(speeds.size()));
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    amplitude(0, static_cast<Eigen::Index>(i)) = jeffcott(speeds[i - i % 2] / 100.0, 0.02, 1.0);
+  }
+  EXPECT_TRUE(response_peaks(speeds, amplitude).empty());
+}
+
 TEST(Amplification, TwoPeaksBelongToTheResponsesThatAreLargestThere) {
   const auto speeds = speeds_to(400.0, 0.1);
   Mat amplitude(2, static_cast<Eigen::Index>(speeds.size()));

@@ -55,6 +55,18 @@ TEST(ResponseCurve, HasThePeaksOfAJeffcottRotorInClosedForm) {
   }
 }
 
+// The speeds that were asked for and those of its own grid are often the same but for rounding.
+TEST(ResponseCurve, HasNoSpeedTwice) {
+  constexpr double last = 344.2449;
+  const int steps = ResponseCurveOptions().steps;
+  std::vector<double> speeds;
+  for (int k = 0; k <= steps; ++k) speeds.push_back(k * (last / steps));
+  const std::vector<double> found = jeffcott_curve(0.2, speeds).response.speeds;
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    EXPECT_GT(found[i] - found[i - 1], 1e-12 * found[i]) << found[i];
+  }
+}
+
 TEST(ResponseCurve, PeaksDoNotDependOnTheSpeedsThatWereAskedFor) {
   const auto steps = [](double step) {
     std::vector<double> speeds;
