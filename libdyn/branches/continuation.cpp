@@ -254,6 +254,16 @@ void Continuation::accept(Trial trial) {
 }
 
 bool Continuation::advance() {
+  const std::size_t known = branch_.bifurcations.size();
+  try {
+    return add_point();
+  } catch (...) {
+    branch_.bifurcations.resize(known);
+    throw;
+  }
+}
+
+bool Continuation::add_point() {
   if (branch_.end) return false;
   if (std::ssize(branch_.points) >= options_.most_points) {
     branch_.end = {EndKind::most_points, "as many points as asked for"};

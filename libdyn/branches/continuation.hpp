@@ -10,11 +10,11 @@ namespace whirl::inline dyn {
 
 struct ContinuationOptions {
   double low = 0.0, high = 1.0;  ///< range of the parameter, where a branch ends
-  double first = 0.0;            ///< value at the start, within it
+  double first = 0.0;            ///< value at the start, within the range
   double direction = 1.0;        ///< in which the parameter goes at the start: 1 or -1
   double largest_step = 0.0;     ///< of the parameter; 0: a hundredth of the range
-  double smallest_step = 1e-9;   ///< of the arc length; what needs a shorter one ends the branch
-  double located = 1e-9;         ///< of the range, to which bifurcations are located
+  double smallest_step = 1e-9;   ///< arc length of a step, below which the branch ends
+  double located = 1e-9;         ///< accuracy of located bifurcations, over the range
   int period = 1;                ///< of orbits [revolutions]
   int most_points = 10000;
 
@@ -29,27 +29,28 @@ struct ContinuationOptions {
 ///   <a, b> = mean of a_i b_i over the unknowns x + a_u b_u
 ///
 /// Newton's method corrects what the tangent t predicts. The derivative by the parameter is taken
-/// at each point, exactly where the equations have it, else as a central difference of two further
-/// evaluations. Steps follow the number of corrections and the
-/// angle between tangents; where none converges they shrink. Bifurcations between two points show
-/// by the signs of test functions (see bifurcation.hpp) or by other numbers of impacts; they are
-/// located by solving for the point where that happens.
+/// at each point, exactly where the equations give it, else as a difference of further evaluations,
+/// central but for the ends of the range. The length of steps follows the number of corrections and
+/// the angle between tangents; a step that does not converge is tried again, shorter. A bifurcation
+/// between two points shows by the sign of a test function (see bifurcation.hpp) or by another
+/// number of impacts; solving for the point of that change locates the bifurcation.
 ///
-/// All that the walk depends on is in the branch: one that is read back goes on with the same
+/// All that the walk depends on is in the branch: a branch that is read back goes on with the same
 /// numbers, bit by bit.
 ///
 /// @source [Keller1977]; [Kuznetsov2004], 10.2
 class Continuation {
  public:
   /// Starts from a solution near x at the first value.
-  /// @throws NumericalError  if there is none, or no tangent
+  /// @throws NumericalError  if there is no such solution, or no tangent
   Continuation(BranchEquations equations, const Vec& x, const ContinuationOptions& options);
   /// Goes on with a branch of at least one point.
-  /// @param by_parameter  as by_parameter() was; empty: it is computed again
+  /// @param by_parameter  by_parameter() at the last point; empty: computed again
   Continuation(BranchEquations equations, Branch branch, const ContinuationOptions& options,
                Vec by_parameter = {});
 
   /// Adds a point, and the bifurcations on the way to it; false: the branch has ended.
+  /// An exception, as of an interruption_point, leaves the branch as it is.
   bool advance();
 
   const Branch& branch() const { return branch_; }
@@ -65,10 +66,10 @@ class Continuation {
     Failure failure;
     Mat jacobian;                  ///< by the unknowns
     std::function<Vec()> slope;    ///< as of BranchEquations::Value
-    Vec by_parameter;              ///< derivative of the residual
-    std::optional<BranchEnd> end;  ///< of the branch, which this point is
+    Vec by_parameter;              ///< derivative of the residual by the parameter
+    std::optional<BranchEnd> end;  ///< set if the branch ends at this point
   };
-  /// What holds z in the corrector: <normal, z - at> = 0.
+  /// The plane that the corrector keeps z in: <normal, z - at> = 0.
   struct Plane {
     Vec normal, at;
   };
@@ -77,42 +78,47 @@ class Continuation {
   double value_of(double u) const;
   double dot(const Vec& a, const Vec& b) const;
   BranchEquations::Value evaluate(const Vec& z, WithTangent wanted) const;
-  /// Of the residual, over the range.
+  /// Derivative of the residual by the parameter over its range.
   /// @param slope  as of BranchEquations::Value, at z
   Vec derivative_by_parameter(const Vec& z, const std::function<Vec()>& slope) const;
   Vec difference_by_parameter(const Vec& z) const;
-  /// @param by_parameter  about there; empty: it is taken where the corrector begins
+  /// @param by_parameter  derivative near that place; empty: taken where the corrector begins
   Trial correct(const Plane& plane, Vec by_parameter) const;
-  /// Tangent at a point of the branch, and the derivative by the parameter.
+  /// Adds the tangent at a point of the branch, and the derivative by the parameter; false: there
+  /// is no tangent.
   bool add_tangent(Trial& trial, const Vec& along) const;
-  /// What the tangent predicts at an arc length from the last point, corrected, with its own
-  /// tangent.
+  /// The point that the tangent predicts at an arc length from the last one, corrected, with a
+  /// tangent of its own.
   Trial reach(double step) const;
-  /// Onto the end of the range that the last tangent leads to.
+  /// The plane at the end of the range that the last tangent leads to.
   Plane range_end_ahead() const;
   double next_step(const Trial& trial, double step) const;
   /// The trial, or a point on the way to it at which the branch is done.
   Trial stop_on_the_way(Trial trial) const;
   void accept(Trial trial);
-  /// Takes off the bifurcations where a branch is born: they are none of its orbits.
+  /// Takes off the folds and pitchforks at a vertex, where the branch is born from one of half its
+  /// period: these are no bifurcations of its orbits.
   void forget_vertex(const BranchPoint& vertex);
-  /// The first point, with its tangent, if the branch comes to it again on the way from a to b.
+  /// The first point of the branch, with its tangent, if the way from a to b leads through that
+  /// point.
   Trial closing(const BranchPoint& a, const BranchPoint& b) const;
-  /// Arc length from a at which orbits come to repeat after half their period, if they do before b.
+  /// Arc length from a from which on orbits repeat after half their period, if that is before b.
   std::optional<double> halving(const BranchPoint& a, const BranchPoint& b) const;
-  /// False: one of them could not be located.
+  /// advance(), which leaves bifurcations behind where an exception leaves it.
+  bool add_point();
+  /// Adds the bifurcations between two points; false: one of these could not be located.
   bool find_bifurcations(const BranchPoint& a, const BranchPoint& b);
-  /// The point between two at an arc length from the first.
+  /// The point of the branch between a and b at an arc length from a.
   Trial between(const BranchPoint& a, const BranchPoint& b, double length) const;
-  /// False: it could not be located.
+  /// Adds a bifurcation between two points; false: it could not be located.
   bool locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b);
   bool locate_grazings(const BranchPoint& a, const BranchPoint& b);
   /// Where no step succeeds: looks for a grazing ahead, beyond which the branch goes on if an orbit
-  /// is found there; else says why it ends.
+  /// is found there; else notes why the branch ends.
   void cross_or_end(const std::string& why);
   /// An orbit beyond a grazing at which all of a circle touches at once, so that no tangent leads
-  /// across: it touches all the time where the last one does not touch, or the other way round.
-  /// @param u  where it grazes, 0 at low and 1 at high
+  /// across. The orbit touches all the time if the last one does not touch, or the other way round.
+  /// @param u  parameter at the grazing, 0 at low and 1 at high
   Trial beyond_grazing(const Bifurcation& grazes, double u) const;
   double limited(double step, const Vec& tangent) const;
 

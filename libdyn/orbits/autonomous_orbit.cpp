@@ -11,6 +11,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/floquet.hpp"
 #include "libbase/numerics/newton.hpp"
+#include "libbase/system/interruption.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/batch.hpp"
 
@@ -141,7 +142,6 @@ AutonomousOrbit find_autonomous_orbit(const AutonomousFlow& flow, const Vec& sta
       },
       {.most_steps = most_steps});
   AutonomousOrbit cycle{.state = at.state, .period = at.period, .residual = at.residual};
-  cycle.residuals = std::move(search.residuals);
   cycle.failure = at.arrival.failure;
   if (search.has_converged()) {
     cycle.multipliers = multipliers_across(at.tangent);
@@ -150,6 +150,7 @@ AutonomousOrbit find_autonomous_orbit(const AutonomousFlow& flow, const Vec& sta
     cycle.failure =
         search.failure("no periodic orbit", "the equations for state and period are singular");
   }
+  cycle.residuals = std::move(search.residuals);
   return cycle;
 }
 
@@ -196,6 +197,7 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
   return {system.state_scale(), system.period(),
           [scene, S, tolerance](const Vec& z, double time,
                                 WithTangent wanted) -> AutonomousFlow::Result {
+            interruption_point();
             const double angle = scene->contacts.Omega() * time;
             Trajectory t{.system = &scene->contacts,
                          .state = start_before(S, z, angle),

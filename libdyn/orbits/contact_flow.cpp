@@ -6,6 +6,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
+#include "libbase/system/interruption.hpp"
 #include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 std::vector<FlowResult> pass(const ContactSystem& system, double tolerance,
                              std::span<const Vec> starts, long revolutions, WithTangent tangents) {
+  interruption_point();
   std::vector<Trajectory> all;
   for (const Vec& y : starts) {
     Trajectory t{.system = &system, .revolutions = revolutions};

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "libbase/error.hpp"
+#include "libbase/system/interruption.hpp"
 
 namespace whirl::inline dyn {
 
@@ -229,6 +230,7 @@ void add_coefficients(const std::vector<PortSample>& samples, int harmonics, Eig
 }  // namespace
 
 HarmonicEquations::Evaluation HarmonicEquations::evaluate(const Mat& u, bool slopes) const {
+  interruption_point();
   const Eigen::Index P = ports(), terms = 2 * harmonics_ + 1;
   Evaluation e;
   e.g = springs_.asDiagonal() * u;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "libbase/system/interruption.hpp"
 #include "libdyn/studies/branch_walk.hpp"
 #include "libdyn/studies/piece_runner.hpp"
 
@@ -80,10 +81,13 @@ BranchStudy follow_branches(const BranchScenes& scenes, BranchStudy study,
                             const BranchStudyOptions& options,
                             const Monitor<BranchStudy>& monitor) {
   const bool leads = !monitor.ranks || monitor.ranks->leads();
+  const auto stops = [&monitor] { return monitor.stops(); };
   if (leads && study.tree.branches.empty()) {
     const std::optional<Vec> start = settled();
     if (!start) return study;
-    study.tree = begin_tree(scenes.along, *start, options.tree);
+    const bool has_begun = finishes_unless(
+        stops, [&] { study.tree = begin_tree(scenes.along, *start, options.tree); });
+    if (!has_begun) return study;
   }
   WalksLeft walks(scenes, options, study);
   SaveTimer timer;
@@ -98,8 +102,7 @@ BranchStudy follow_branches(const BranchScenes& scenes, BranchStudy study,
     monitor.show(added, options.tree.most_points);
     if (timer.is_due()) timer.save(save);
   };
-  const WalkWork work =
-      walk_work(scenes, options, {options.stretch, [&monitor] { return monitor.stops(); }});
+  const WalkWork work = walk_work(scenes, options, {options.stretch, stops});
   run_pieces<WalkNews, BegunWalk>(work, {[&](int) { return walks.next(); }, keep, save}, monitor);
   return study;
 }

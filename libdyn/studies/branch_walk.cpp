@@ -1,5 +1,7 @@
 #include "libdyn/studies/branch_walk.hpp"
 
+#include "libbase/system/interruption.hpp"
+
 namespace whirl::inline dyn {
 
 void add_news(Branch& known, const Branch& walked, const BranchExtent& beyond) {
@@ -9,6 +11,13 @@ void add_news(Branch& known, const Branch& walked, const BranchExtent& beyond) {
   add(known.points, walked.points, beyond.points);
   add(known.bifurcations, walked.bifurcations, beyond.bifurcations);
   known.end = walked.end;
+}
+
+bool advance(Continuation& walk, const std::function<bool()>& stops) {
+  if (stops()) return false;
+  bool has_point = false;
+  finishes_unless(stops, [&] { has_point = walk.advance(); });
+  return has_point;
 }
 
 }  // namespace whirl::inline dyn

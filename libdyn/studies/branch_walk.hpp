@@ -16,20 +16,26 @@ inline BranchExtent extent_of(const Branch& branch) {
   return {branch.points.size(), branch.bifurcations.size()};
 }
 
-/// Adds to a branch what a walk has found beyond that, and its end: no more than that is copied.
+/// Adds to a branch what a walk has found beyond an extent, and the end of the walk; no more is
+/// copied.
 void add_news(Branch& known, const Branch& walked, const BranchExtent& beyond);
+
+/// Advances a walk by a point.
+/// @param stops  asked before the point and often on the way to it
+/// @return  false: the branch has ended, or the walk was stopped and is where it was
+bool advance(Continuation& walk, const std::function<bool()>& stops);
 
 /// Walks until a branch ends.
 ///
-/// @param branch   gets what the walk finds, point by point: it is always one to go on from
+/// @param branch   gets what the walk finds, point by point: the walk can go on from it at any time
 /// @param measure  called with each point before the branch gets it
-/// @param added    called after that
-/// @return  false: stopped before its end
+/// @param added    called after the branch has got a point
+/// @return  false: stopped before the end of the branch
 template <class Result>
 bool walk_to_end(Continuation& walk, Branch& branch, const Monitor<Result>& monitor,
                  const std::function<void(const BranchPoint& point)>& measure,
                  const std::function<void()>& added) {
-  while (!monitor.stops() && walk.advance()) {
+  while (advance(walk, [&] { return monitor.stops(); })) {
     measure(walk.branch().points.back());
     add_news(branch, walk.branch(), extent_of(branch));
     added();

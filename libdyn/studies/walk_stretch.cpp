@@ -12,7 +12,7 @@ WalkNews walk_stretch(Continuation walk, const StretchLimits& limits,
   const auto begin = clock::now();
   const BranchExtent begun = extent_of(walk.branch());
   WalkNews news;
-  while (!limits.is_stopped() && walk.advance()) {
+  while (advance(walk, limits.is_stopped)) {
     if (measure) measure(walk.branch().points.back(), news);
     if (clock::now() - begin >= limits.lasts) break;
   }

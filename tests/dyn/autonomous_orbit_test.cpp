@@ -2,6 +2,7 @@
 
 #include "libdyn/orbits/autonomous_orbit.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,6 +60,17 @@ TEST(AutonomousOrbit, FindsThePeriodOfVanDerPolsEquation) {
 }
 
 // Over three periods the same motion is found, and that it is one of a third.
+TEST(AutonomousOrbit, SaysHowFarASearchHasComeThatFindsNone) {
+  const AutonomousOrbit none =
+      find_autonomous_orbit(van_der_pol(1.0), (Vec(2) << 2.0, 0.0).finished(), 6.6, 1);
+  ASSERT_FALSE(none.is_good());
+  ASSERT_EQ(none.residuals.size(), 2u);
+  EXPECT_EQ(
+      none.failure.text(),
+      fmt::format("no periodic orbit: after 1 steps of Newton's method the residual is {:.1e}",
+                  none.residuals.back()));
+}
+
 TEST(AutonomousOrbit, KnowsTheShortestPeriod) {
   const AutonomousFlow flow = van_der_pol(1.0);
   const AutonomousOrbit once = find_autonomous_orbit(flow, (Vec(2) << 2.0, 0.0).finished(), 6.6);
