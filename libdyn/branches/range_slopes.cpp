@@ -73,8 +73,7 @@ Mat coordinates_of(const BasisChange& change) {
 void tell_in_coordinates(const Mat& T, HarmonicProblem& problem) {
   const Mat back = DenseLu<Mat>(T).solve(Mat::Identity(T.rows(), T.cols()));
   for (Mat* A : {&problem.K, &problem.D}) *A = T * *A * back;
-  for (Vec* f : {&problem.f0, &problem.fc, &problem.fs}) *f = T * *f;
-  for (HarmonicProblem::OrderLoad& load : problem.orders) {
+  for (HarmonicProblem::Load& load : problem.loads) {
     for (Vec* f : {&load.cosine, &load.sine}) *f = T * *f;
   }
   for (PortForces& force : problem.forces) {

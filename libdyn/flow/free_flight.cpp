@@ -34,14 +34,15 @@ std::optional<Mat> periodic_motion(const ContactSystem& system) {
     if (!(K.rcond() > resonant)) return std::nullopt;
     eta.col(0) = K.solve(system.constant_load());
   }
-  if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0)) {
+  const ReducedExcitation& load = system.synchronous_load();
+  if (!load.is_zero()) {
     // (K - w^2 + i w D) q = fc - i fs, eta = Re(q e^(i phase))
     const CMat dynamic = (system.K() - w * w * Mat::Identity(n, n)).cast<Complex>() +
                          Complex(0.0, w) * system.D().cast<Complex>();
     const DenseLu<CMat> lu(dynamic);
     if (!(lu.rcond() > resonant)) return std::nullopt;
-    const CVec q = lu.solve(system.cosine_load().cast<Complex>() -
-                            Complex(0.0, 1.0) * system.sine_load().cast<Complex>());
+    const CVec q =
+        lu.solve(load.cosine.cast<Complex>() - Complex(0.0, 1.0) * load.sine.cast<Complex>());
     eta.col(1) = q.real();
     eta.col(2) = -q.imag();
     rate.col(1) = -w * q.imag();
@@ -87,7 +88,7 @@ std::optional<Mat> lyapunov(const Mat& A, const Mat& Q) {
 /// Nothing where a revolution is too long beside the fastest motion, nor under loads that do not
 /// repeat with it.
 std::optional<LinearFlow> flow_over_a_revolution(const ContactSystem& system) {
-  if (!system.oscillations().empty()) return std::nullopt;
+  if (!system.other_loads().empty()) return std::nullopt;
   try {
     return LinearFlow(system, system.period(), 1);
   } catch (const NumericalError&) {

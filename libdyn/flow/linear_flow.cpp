@@ -88,7 +88,8 @@ LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)
         "too high?",
         norm_, longest, levels));
   }
-  layout_.rate(F_) << system.constant_load(), system.cosine_load(), system.sine_load();
+  layout_.rate(F_) << system.constant_load(), system.synchronous_load().cosine,
+      system.synchronous_load().sine;
   for (int c = 0; c < contacts_; ++c) {
     layout_.rate(B_).middleCols(2 * c, 2) = system.contacts()[static_cast<std::size_t>(c)].B;
   }

@@ -4,7 +4,7 @@
 
 #include "libdyn/system/resting_rotor.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {
 

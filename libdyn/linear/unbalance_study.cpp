@@ -58,7 +58,7 @@ void add_peaks_of_orders(const Assembler& assembler, std::vector<double>& speeds
                          Failure& failure) {
   if (speeds.size() < 2) return;
   const double first = speeds.front(), last = speeds.back();
-  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
+  for (const Excitation& load : other_excitations(assembler)) {
     if (!(load.order > 0.0)) continue;
     try {
       for (const Resonance& r : resonances_between(assembler, first, last, load.order)) {
@@ -117,11 +117,11 @@ void add_forced(const std::vector<NamedPoint>& stations, const Assembler& assemb
                 std::vector<Point> points, UnbalanceStudy& study) {
   const std::vector<Point> of_probes = points_of(assembler);
   points.insert(points.end(), of_probes.begin(), of_probes.end());
-  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
+  for (const Excitation& load : other_excitations(assembler)) {
     const UnbalanceResponse found = oscillating_response(assembler, load, study.speeds, points);
     const auto name = [&](auto& of) {
       of.force = load.label();
-      of.forces = load.forces;
+      of.forces = load.names;
       (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
     };
     for (StationResponse& at : station_responses(stations, found)) {

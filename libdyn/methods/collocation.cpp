@@ -280,7 +280,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
   if (!suits_collocation(system)) {
     throw ModelError(
         {}, "method collocation",
-        !system.oscillations().empty()
+        !system.other_loads().empty()
             ? "knows loads of the frequency of the speed only; take taylor for other forces"
         : system.films().empty()
             ? "is for contacts of rings and stops only; take taylor for faces and blades"
@@ -290,7 +290,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
 }
 
 bool suits_collocation(const ContactSystem& system) {
-  return system.films().empty() && system.oscillations().empty() &&
+  return system.films().empty() && system.other_loads().empty() &&
          std::all_of(system.contacts().begin(), system.contacts().end(),
                      [](const ReducedContact& c) { return !c.turns() && !c.rubs_apart(); });
 }

@@ -10,7 +10,7 @@
 #include "libfe/analyses/campbell.hpp"
 #include "libfe/analyses/own_frequency_modes.hpp"
 #include "libfe/analyses/reduced_modes.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {
 
@@ -73,10 +73,9 @@ int most_alike(const std::vector<double>& mac) {
 
 std::vector<ForcedLine> forced_lines(const Assembler& assembler, double Omega) {
   std::vector<ForcedLine> lines{{"1X", Omega}};
-  const CVec synchronous = synchronous_forces(assembler);
-  if (synchronous.size() > 0) lines.push_back({"1X", -Omega});
-  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
-    const double w = load.at(Omega);
+  if (has_synchronous_force(assembler.structure())) lines.push_back({"1X", -Omega});
+  for (const Excitation& load : other_excitations(assembler)) {
+    const double w = load.frequency_at(Omega);
     if (w == 0.0) continue;  // of an order, at rest
     lines.push_back({load.label(), w});
     lines.push_back({load.label(), -w});

@@ -11,7 +11,7 @@
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/analyses/modes.hpp"
 #include "libfe/analyses/static.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {
 

@@ -186,7 +186,7 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
   if (!(system.Omega() > 0.0) || system.coordinates() == 0) {
     throw NumericalError("the rotating frame: the rotor does not spin forward");
   }
-  if (!system.oscillations().empty()) {
+  if (!system.other_loads().empty()) {
     throw NumericalError(
         "the rotating frame: a force of another order than 1, or with a frequency of its own, does "
         "not stand still there");

@@ -67,9 +67,9 @@ Mat BasisChange::back(const Mat& y) const {
 }
 
 void require_periodic_loads(const ContactSystem& system) {
-  const auto& loads = system.oscillations();
-  const bool follow_the_speed =
-      std::all_of(loads.begin(), loads.end(), [](const Oscillation& o) { return o.order > 0.0; });
+  const auto loads = system.other_loads();
+  const bool follow_the_speed = std::all_of(
+      loads.begin(), loads.end(), [](const ReducedExcitation& o) { return o.order > 0.0; });
   if (follow_the_speed && system.repeats_after() > 0) return;
   throw ModelError(
       {}, "force",

@@ -24,14 +24,13 @@ constexpr int kept = 80;            ///< harmonics of them
 HarmonicProblem harmonic_problem(const ContactSystem& system) {
   require_coordinates(system);
   require_periodic_loads(system);
-  std::vector<HarmonicProblem::OrderLoad> orders;
-  for (const Oscillation& o : system.oscillations()) orders.push_back({o.order, o.cosine, o.sine});
+  std::vector<HarmonicProblem::Load> loads;
+  for (const ReducedExcitation& e : system.excitations()) {
+    loads.push_back({e.order, e.cosine, e.sine});
+  }
   return {.K = system.K(),
           .D = system.D(),
-          .f0 = system.constant_load(),
-          .fc = system.cosine_load(),
-          .fs = system.sine_load(),
-          .orders = std::move(orders),
+          .loads = std::move(loads),
           .rate = system.phase_rate(),
           .length_scale = system.length_scale(),
           .scale = system.state_scale(),
@@ -43,18 +42,16 @@ HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& 
   using S = ContactSystem;
   HarmonicProblem by{.K = slopes.of([](const S& s) -> const Mat& { return s.K(); }),
                      .D = slopes.of([](const S& s) -> const Mat& { return s.D(); }),
-                     .f0 = slopes.of([](const S& s) -> const Vec& { return s.constant_load(); }),
-                     .fc = slopes.of([](const S& s) -> const Vec& { return s.cosine_load(); }),
-                     .fs = slopes.of([](const S& s) -> const Vec& { return s.sine_load(); }),
                      .rate = slopes.of([](const S& s) { return s.phase_rate(); }),
                      .length_scale = 0.0,
                      .scale = {},
                      .forces = port_force_slopes(system, slopes),
                      .measures = {}};
-  for (std::size_t i = 0; i < system.oscillations().size(); ++i) {
-    by.orders.push_back({system.oscillations()[i].order,
-                         slopes.of([i](const S& s) { return s.oscillations()[i].cosine; }),
-                         slopes.of([i](const S& s) { return s.oscillations()[i].sine; })});
+  for (std::size_t i = 0; i < system.excitations().size(); ++i) {
+    by.loads.push_back(
+        {system.excitations()[i].order,
+         slopes.of([i](const S& s) -> const Vec& { return s.excitations()[i].cosine; }),
+         slopes.of([i](const S& s) -> const Vec& { return s.excitations()[i].sine; })});
   }
   return by;
 }

@@ -37,15 +37,15 @@ void set_amplitude(Mat& c, Eigen::Index k, const CMat& z) {
 }
 
 /// Number of the harmonic of a motion that a load is; nothing where it does not repeat with it.
-std::optional<long> harmonic_of(const HarmonicProblem::OrderLoad& load, int period) {
+std::optional<long> harmonic_of(const HarmonicProblem::Load& load, int period) {
   const long k = std::lround(load.order * period);
-  if (k < 1 || std::abs(load.order * period - static_cast<double>(k)) > order_digits * period) {
+  if (k < 0 || std::abs(load.order * period - static_cast<double>(k)) > order_digits * period) {
     return std::nullopt;
   }
   return k;
 }
 
-std::string no_harmonic(const HarmonicProblem::OrderLoad& load, int period) {
+std::string no_harmonic(const HarmonicProblem::Load& load, int period) {
   return fmt::format("harmonic balance: a force of order {:g} does not repeat with a period of {}",
                      load.order, period);
 }
@@ -54,7 +54,7 @@ std::string no_harmonic(const HarmonicProblem::OrderLoad& load, int period) {
 
 int HarmonicProblem::highest_load(int period) const {
   int highest = period;
-  for (const OrderLoad& load : orders) {
+  for (const Load& load : loads) {
     const auto k = harmonic_of(load, period);
     if (!k) throw OptionError(no_harmonic(load, period));
     highest = std::max(highest, static_cast<int>(*k));
@@ -86,20 +86,20 @@ Places places_of(const HarmonicProblem& problem) {
 /// @throws NumericalError  where one is none of the harmonics
 Mat loads_of(const HarmonicProblem& problem, int period, int harmonics) {
   Mat loads = Mat::Zero(problem.coordinates(), 2 * harmonics + 1);
-  loads.col(0) = problem.f0;
-  if (period <= harmonics) {
-    loads.col(2 * period - 1) = problem.fc;
-    loads.col(2 * period) = problem.fs;
-  }
-  for (const HarmonicProblem::OrderLoad& load : problem.orders) {
+  for (const HarmonicProblem::Load& load : problem.loads) {
+    if (load.cosine.isZero(0.0) && load.sine.isZero(0.0)) continue;
     const auto k = harmonic_of(load, period);
     if (!k) throw NumericalError(no_harmonic(load, period));
     if (*k > harmonics) {
       throw NumericalError(fmt::format(
           "harmonic balance: a force is harmonic {} of the orbit, there are {}", *k, harmonics));
     }
-    loads.col(2 * *k - 1) += load.cosine;
-    loads.col(2 * *k) += load.sine;
+    if (*k == 0) {
+      loads.col(0) += load.cosine;
+    } else {
+      loads.col(2 * *k - 1) += load.cosine;
+      loads.col(2 * *k) += load.sine;
+    }
   }
   return loads;
 }

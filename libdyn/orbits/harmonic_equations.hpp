@@ -13,17 +13,15 @@ namespace whirl::inline dyn {
 
 /// Equations of motion, forces of few displacements apart.
 ///
-///   eta'' + D eta' + K eta = f0 + fc cos(phase) + fs sin(phase)
-///                            + sum_j B_j g_j(phase, U_j eta, U_j eta')
+///   eta'' + D eta' + K eta = sum_l f_l(order_l phase) + sum_j B_j g_j(phase, U_j eta, U_j eta')
 struct HarmonicProblem {
   Mat K, D;
-  Vec f0, fc, fs;
-  /// A load of another order than 1: cosine cos(order phase) + sine sin(order phase).
-  struct OrderLoad {
+  /// cosine cos(order phase) + sine sin(order phase); order 0: constant.
+  struct Load {
     double order = 0.0;
     Vec cosine, sine;
   };
-  std::vector<OrderLoad> orders{};
+  std::vector<Load> loads{};
   double rate = 1.0;          ///< of the phase [rad/s]
   double length_scale = 1.0;  ///< of displacements at the forces [m]
   Vec scale;                  ///< of the state (eta, eta'), size 2 n

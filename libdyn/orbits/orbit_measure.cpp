@@ -16,9 +16,7 @@ constexpr int quadrature_points = 10;  ///< of a step, whose series have order 1
 /// Rows that are asked for at every instant.
 struct Instants {
   Instants(const Scene& scene, std::span<const Point> stations, OrbitFrame frame)
-      : cosine(scene.reduced.M * scene.contacts.cosine_load()),
-        sine(scene.reduced.M * scene.contacts.sine_load()),
-        oscillations(scene.contacts.oscillations()),
+      : loads(scene.contacts.excitations().begin() + 1, scene.contacts.excitations().end()),
         rows(2 * std::ssize(stations), scene.contacts.coordinates()),
         across(0, scene.contacts.coordinates()) {
     const Mat map = scene.displacement_map();
@@ -35,7 +33,7 @@ struct Instants {
       rows.row(k++) = map.row(scene.reduced.dofs.full_index(p, Y));
     }
     found.radii.assign(stations.size(), 0.0);
-    for (Oscillation& o : oscillations) {
+    for (ReducedExcitation& o : loads) {
       o.cosine = scene.reduced.M * o.cosine;
       o.sine = scene.reduced.M * o.sine;
     }
@@ -53,9 +51,7 @@ struct Instants {
   /// @param weight  of the instant in the integral of the power [s]
   void add(const Instant& now, const Eigen::Ref<const Vec>& eta, const Eigen::Ref<const Vec>& rate,
            double weight) {
-    const double phase = now.phase;
-    found.work += weight * (std::cos(phase) * cosine + std::sin(phase) * sine).dot(rate);
-    for (const Oscillation& o : oscillations) {
+    for (const ReducedExcitation& o : loads) {
       const double angle = o.angle(now);
       found.work += weight * (std::cos(angle) * o.cosine + std::sin(angle) * o.sine).dot(rate);
     }
@@ -74,11 +70,10 @@ struct Instants {
     }
   }
 
-  Vec cosine, sine;                       ///< of the unbalance, generalized forces
-  std::vector<Oscillation> oscillations;  ///< likewise
-  Mat rows, probes;                       ///< what stations and probes read of the coordinates
-  Mat across;                             ///< and probes at right angles to these; empty: not asked
-  Vec least, most;                        ///< readings of the probes so far
+  std::vector<ReducedExcitation> loads;  ///< but for the constant one; generalized forces
+  Mat rows, probes;                      ///< what stations and probes read of the coordinates
+  Mat across;                            ///< and probes at right angles to these; empty: not asked
+  Vec least, most;                       ///< readings of the probes so far
   OrbitMeasure found;
 };
 

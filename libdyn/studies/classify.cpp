@@ -10,7 +10,7 @@
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/proven_orbit.hpp"
 #include "libdyn/studies/stepped.hpp"
-#include "libdyn/system/oscillations.hpp"
+#include "libdyn/system/load_periods.hpp"
 #include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/mixed.hpp"
 

@@ -95,9 +95,7 @@ void find_orbits(std::vector<OrbitCandidate>& candidates, double tolerance,
 
 bool stands_still(const ClassifyCandidate& s, double tolerance) {
   const ContactSystem& system = *s.system;
-  if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0) ||
-      !system.oscillations().empty())
-    return false;
+  if (!system.synchronous_load().is_zero() || !system.other_loads().empty()) return false;
   double moved = 0.0;
   Trajectory t{.system = s.system, .state = s.found.end, .revolutions = 1};
   Vec y(system.size());

@@ -93,10 +93,11 @@ double ContactSystem::phase_rate() const {
 void ContactSystem::smooth_acceleration(const Instant& at, const double* y, double* a) const {
   Eigen::Map<Vec> result(a, coordinates());
   const auto eta = layout().eta(y), rate = layout().rate(y);
-  result = f0_ + std::cos(at.phase) * fc_ + std::sin(at.phase) * fs_;
-  for (const Oscillation& o : oscillations_) {
-    const double alpha = o.angle(at);
-    result += std::cos(alpha) * o.cosine + std::sin(alpha) * o.sine;
+  result = constant_load();
+  for (const ReducedExcitation& load : std::span(excitations_).subspan(1)) {
+    const double alpha = load.angle(at);
+    result += std::cos(alpha) * load.cosine;
+    result += std::sin(alpha) * load.sine;
   }
   result.noalias() -= K_ * eta;
   result.noalias() -= D_ * rate;

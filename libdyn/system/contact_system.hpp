@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "libdyn/system/excitation.hpp"
 #include "libdyn/system/film.hpp"
 #include "libdyn/system/layout.hpp"
 #include "libdyn/system/model.hpp"
@@ -83,32 +85,9 @@ struct ContactForces {
   Vec2 t() const { return {-n(1), n(0)}; }
 };
 
-/// When: a phase within a revolution, and which revolution that is. Only loads that do not repeat
-/// with the revolution ask for the latter.
-struct Instant {
-  double phase = 0.0;  ///< [rad]
-  long revolution = 0;
-
-  Instant(double at_phase, long in_revolution = 0) : phase(at_phase), revolution(in_revolution) {}
-};
-
-/// A load whose frequency is not that of the speed, over the angle alpha that it has gone through:
-/// cosine cos(alpha) + sine sin(alpha), alpha = ratio times the angle of the rotor.
-struct Oscillation {
-  double order = 0.0;      ///< of the speed; 0: a frequency of its own
-  double frequency = 0.0;  ///< [rad/s]
-  double ratio = 0.0;      ///< of that to the rate of the phase
-  Vec cosine, sine;        ///< accelerations of the coordinates
-
-  /// alpha at the start of a revolution, 0 to 2 pi: to the last digit, however many there were.
-  double start_angle(long revolution) const;
-  double angle(const Instant& at) const { return start_angle(at.revolution) + ratio * at.phase; }
-};
-
 /// Reduced equations of motion with contacts and oil films.
 ///
-///   eta'' = f0 + fc cos(phase) + fs sin(phase) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j)
-///           + sum_i B_i F_i + loads of other frequencies
+///   eta'' = sum_l f_l(alpha_l) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j) + sum_i B_i F_i
 ///
 /// M is multiplied out. The state of an integration is (eta, eta'), as its layout() has it; phase =
 /// Omega t. A value: copy it, one per thread.
@@ -129,11 +108,14 @@ class ContactSystem {
 
   const Mat& K() const { return K_; }
   const Mat& D() const { return D_; }
-  const Vec& constant_load() const { return f0_; }
-  const Vec& cosine_load() const { return fc_; }
-  const Vec& sine_load() const { return fs_; }
-  /// Loads of other frequencies; empty: there are none.
-  const std::vector<Oscillation>& oscillations() const { return oscillations_; }
+  /// All loads: the constant one, the synchronous one, which has the angle of the rotor, then those
+  /// of other frequencies. The first two are there even where they are zero.
+  const std::vector<ReducedExcitation>& excitations() const { return excitations_; }
+  const Vec& constant_load() const { return excitations_[0].cosine; }
+  const ReducedExcitation& synchronous_load() const { return excitations_[1]; }
+  std::span<const ReducedExcitation> other_loads() const {
+    return std::span(excitations_).subspan(2);
+  }
   /// After how many revolutions all loads repeat, the least number; 0: never, as of a frequency of
   /// its own that is in no simple ratio to the speed.
   long repeats_after() const;
@@ -202,8 +184,7 @@ class ContactSystem {
   void smooth_acceleration(const Instant& at, const double* y, double* a) const;
 
   Mat K_, D_;
-  Vec f0_, fc_, fs_;
-  std::vector<Oscillation> oscillations_;
+  std::vector<ReducedExcitation> excitations_;
   std::vector<ReducedContact> contacts_;
   std::vector<ReducedFilm> films_;
   double Omega_ = 0.0;

@@ -8,8 +8,8 @@
 #include "libbase/numerics/dense.hpp"
 #include "libcontact/blade.hpp"
 #include "libdyn/system/contact_system.hpp"
-#include "libdyn/system/oscillations.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libdyn/system/load_periods.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {
 
@@ -97,24 +97,24 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
 }
 
 void ContactSystem::add_loads(const Reduction& by) {
-  const CVec u = synchronous_load(by.assembler, Omega_);
-  f0_ = by.load(static_load(by.assembler));
-  fc_ = by.load(u.real());  // Re(u e^(i phase)) = Re u cos - Im u sin
-  fs_ = by.load(-u.imag());
-  if (Omega_ == 0.0) {  // what turns with the rotor stands still with it
-    f0_ += fc_;
-    fc_.setZero();
-    fs_.setZero();
-  }
-  for (const OscillatingLoad& f : oscillating_loads(by.assembler)) {
+  const Vec none = Vec::Zero(coordinates());
+  excitations_ = {{.cosine = none, .sine = none},
+                  {.order = 1.0, .frequency = Omega_, .ratio = 1.0, .cosine = none, .sine = none}};
+  for (const Excitation& f : excitations_at(by.assembler, Omega_)) {
     if (f.amplitude.isZero(0.0)) continue;
-    const Vec cosine = by.load(f.amplitude.real()), sine = by.load(-f.amplitude.imag());
-    if (f.at(Omega_) == 0.0) {  // an order of a speed that is zero
-      f0_ += cosine;
+    const Vec cosine = by.load(f.amplitude.real());  // Re(u e^(i alpha)) = Re u cos - Im u sin
+    if (f.frequency_at(Omega_) == 0.0) {  // what turns with a rotor that stands is constant
+      excitations_[0].cosine += cosine;
+      continue;
+    }
+    const Vec sine = by.load(-f.amplitude.imag());
+    if (f.is_synchronous()) {
+      excitations_[1].cosine = cosine;
+      excitations_[1].sine = sine;
       continue;
     }
     const double ratio = frequency_ratio(by.assembler.structure(), f, phase_rate());
-    oscillations_.push_back({f.order, f.at(Omega_), ratio, cosine, sine});
+    excitations_.push_back({f.order, f.frequency_at(Omega_), ratio, cosine, sine});
   }
 }
 
@@ -155,12 +155,12 @@ void ContactSystem::add_film(const Reduction& by, const OilFilm& film) {
 
 double ContactSystem::size_of_motion(const Reduction& by) const {
   const Mat& back = by.back;
-  const Vec sag = least_squares(K_, f0_);
+  const Vec sag = least_squares(K_, constant_load());
   const double turn = phase_rate();
   double size = std::max({(back * sag).cwiseAbs().maxCoeff(),
-                          (back * fc_).cwiseAbs().maxCoeff() / (turn * turn),
-                          (back * fs_).cwiseAbs().maxCoeff() / (turn * turn)});
-  for (const Oscillation& o : oscillations_) {
+                          (back * synchronous_load().cosine).cwiseAbs().maxCoeff() / (turn * turn),
+                          (back * synchronous_load().sine).cwiseAbs().maxCoeff() / (turn * turn)});
+  for (const ReducedExcitation& o : other_loads()) {
     for (const Vec* f : {&o.cosine, &o.sine}) {  // as if slow, or as if nothing held it
       const double slow = (back * least_squares(K_, *f)).cwiseAbs().maxCoeff(),
                    fast = (back * *f).cwiseAbs().maxCoeff() / (o.frequency * o.frequency);

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "libbase/error.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {
 

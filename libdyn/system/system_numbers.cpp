@@ -1,13 +1,16 @@
 #include "libdyn/system/system_numbers.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace whirl::inline dyn {
 
 namespace {
 
-Vec numbers(std::initializer_list<double> list) {
-  return Eigen::Map<const Vec>(list.begin(), std::ssize(list));
+Vec numbers(std::initializer_list<double> values) {
+  Vec all(std::ssize(values));
+  std::copy(values.begin(), values.end(), all.begin());
+  return all;
 }
 
 template <class Matrix>
@@ -50,11 +53,9 @@ void add_film(const ReducedFilm& film, std::vector<Vec>& blocks) {
 }  // namespace
 
 std::vector<Vec> numbers_of(const ContactSystem& system) {
-  std::vector<Vec> blocks{flat(system.K()),          flat(system.D()),
-                          system.constant_load(),    system.cosine_load(),
-                          system.sine_load(),        numbers({system.phase_rate()}),
+  std::vector<Vec> blocks{flat(system.K()), flat(system.D()), numbers({system.phase_rate()}),
                           numbers({system.period()})};
-  for (const Oscillation& o : system.oscillations()) {
+  for (const ReducedExcitation& o : system.excitations()) {
     for (const Vec& block : {o.cosine, o.sine, numbers({o.ratio * system.phase_rate()})}) {
       blocks.push_back(block);
     }

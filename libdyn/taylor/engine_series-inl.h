@@ -54,7 +54,7 @@ HWY_ATTR void Engine<P>::find_load() {
                [&](int i, int k, const V& f) HWY_ATTR {
                  load(i, k) = k == 0 ? f + as<V>(equations_.f0[static_cast<size_t>(i)]) : f;
                });
-  for (const OscillationLanes<P>& o : equations_.oscillations) {
+  for (const OtherLoadLanes<P>& o : equations_.other_loads) {
     oscillate<V>(as<V>(o.rate), fma(as<V>(o.rate), as<V>(time_), as<V>(o.start)), o.fc, o.fs,
                  [&](int i, int k, const V& f) HWY_ATTR { load(i, k) = load(i, k) + f; });
   }

@@ -62,7 +62,7 @@ HWY_ATTR void Engine<P>::load_slopes(const Trajectory& t) {
   const auto& e = equations_;
   is_flat_ = !has_tangents() && is_flat(rate_);
   for (const auto* v : {&e.K, &e.D, &e.A, &e.f0, &e.fc, &e.fs}) is_flat_ = is_flat_ && are_flat(*v);
-  for (const OscillationLanes<P>& o : e.oscillations) {
+  for (const OtherLoadLanes<P>& o : e.other_loads) {
     is_flat_ = is_flat_ && is_flat(o.rate) && are_flat(o.fc) && are_flat(o.fs);
   }
   for (ContactLanes<P>& c : contacts_) {

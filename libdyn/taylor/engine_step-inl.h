@@ -185,7 +185,7 @@ HWY_ATTR void Engine<P>::end_revolutions(uint64_t ends, bool is_observed) {
     LaneRecord& record = records_[static_cast<size_t>(l)];
     ++record.revolution;
     ++revolutions_;
-    if (!equations_.oscillations.empty()) {
+    if (!equations_.other_loads.empty()) {
       equations_.begin_revolution(*trajectory_[static_cast<size_t>(l)]->system, lane(rate_, l),
                                   record.revolution, l);
       if constexpr (carries_slopes<P>) begin_revolution_of_neighbors(record.revolution);

@@ -18,16 +18,16 @@ namespace HWY_NAMESPACE {
 
 /// A load of another frequency than that of the speed.
 template <class P>
-struct OscillationLanes {
+struct OtherLoadLanes {
   P rate{0.0};            ///< of its angle [rad/s]
   P start{0.0};           ///< that angle at the start of the revolution [rad]
   std::vector<P> fc, fs;  ///< of the coordinates
 };
 
-/// Angle of an oscillation at the start of a revolution, and what it moves on in one [rad].
+/// Angle of such a load at the start of a revolution, and what it moves on in one [rad].
 template <class P>
-HWY_ATTR void start_revolution(const Oscillation& from, typename P::Number rate_of_phase,
-                               long revolution, int l, OscillationLanes<P>& to) {
+HWY_ATTR void start_revolution(const ReducedExcitation& from, typename P::Number rate_of_phase,
+                               long revolution, int l, OtherLoadLanes<P>& to) {
   using Number = typename P::Number;
   if constexpr (P::is_double) {
     const bool is_neighbor = carries_slopes<P> && l > 0;  // whose angle must not wrap
@@ -51,17 +51,17 @@ struct EquationLanes {
   std::vector<P> K, D;  ///< diagonals
   std::vector<P> A;     ///< of [K D] beside them, as pattern.off_diagonal
   std::vector<P> f0, fc, fs;
-  std::vector<OscillationLanes<P>> oscillations;  ///< as many as any lane has
-  int orders;                                     ///< of series for which there is `damping`
-  std::vector<P> damping;                         ///< (k + 1) D for k = 0, 1, ...
+  std::vector<OtherLoadLanes<P>> other_loads;  ///< as many as any lane has
+  int orders;                                  ///< of series for which there is `damping`
+  std::vector<P> damping;                      ///< (k + 1) D for k = 0, 1, ...
 
   explicit EquationLanes(const Pattern& of, int orders_of_damping = 0)
       : pattern(of), orders(orders_of_damping) {
     damping.assign(static_cast<size_t>(of.n) * static_cast<size_t>(orders), P(0.0));
     for (std::vector<P>* v : {&K, &D, &f0, &fc, &fs}) v->assign(static_cast<size_t>(of.n), P(0.0));
     A.assign(static_cast<size_t>(of.off_diagonals), P(0.0));
-    oscillations.resize(of.oscillations);
-    for (OscillationLanes<P>& o : oscillations) {
+    other_loads.resize(of.other_loads);
+    for (OtherLoadLanes<P>& o : other_loads) {
       for (std::vector<P>* v : {&o.fc, &o.fs}) v->assign(static_cast<size_t>(of.n), P(0.0));
     }
   }
@@ -73,15 +73,15 @@ struct EquationLanes {
       set_lane(K[ui], l, s.K()(i, i));
       set_lane(D[ui], l, s.D()(i, i));
       set_lane(f0[ui], l, s.constant_load()(i));
-      set_lane(fc[ui], l, s.cosine_load()(i));
-      set_lane(fs[ui], l, s.sine_load()(i));
+      set_lane(fc[ui], l, s.synchronous_load().cosine(i));
+      set_lane(fs[ui], l, s.synchronous_load().sine(i));
     }
-    for (size_t o = 0; o < oscillations.size(); ++o) {
-      const bool has_it = o < s.oscillations().size();
+    for (size_t o = 0; o < other_loads.size(); ++o) {
+      const bool has_it = o < s.other_loads().size();
       for (int i = 0; i < n; ++i) {
         const auto ui = static_cast<size_t>(i);
-        set_lane(oscillations[o].fc[ui], l, has_it ? s.oscillations()[o].cosine(i) : 0.0);
-        set_lane(oscillations[o].fs[ui], l, has_it ? s.oscillations()[o].sine(i) : 0.0);
+        set_lane(other_loads[o].fc[ui], l, has_it ? s.other_loads()[o].cosine(i) : 0.0);
+        set_lane(other_loads[o].fs[ui], l, has_it ? s.other_loads()[o].sine(i) : 0.0);
       }
     }
     for (int k = 0; k < orders; ++k) {
@@ -100,8 +100,8 @@ struct EquationLanes {
   /// Tells the loads of other frequencies that a lane begins a revolution.
   HWY_ATTR void begin_revolution(const ContactSystem& s, typename P::Number rate_of_phase,
                                  long revolution, int l) {
-    for (size_t o = 0; o < s.oscillations().size(); ++o) {
-      start_revolution(s.oscillations()[o], rate_of_phase, revolution, l, oscillations[o]);
+    for (size_t o = 0; o < s.other_loads().size(); ++o) {
+      start_revolution(s.other_loads()[o], rate_of_phase, revolution, l, other_loads[o]);
     }
   }
 };

@@ -158,11 +158,9 @@ void add_contact(Pattern::ContactRows& rows, const ReducedContact& contact, int 
 
 /// Adds the coefficients of a system that are not zero.
 void add_coordinates(Pattern& p, const ContactSystem& s) {
-  for (int i = 0; i < p.n; ++i) {
-    if (s.cosine_load()(i) != 0.0 || s.sine_load()(i) != 0.0) insert(p.forced, i);
-  }
-  p.oscillations = std::max(p.oscillations, s.oscillations().size());
-  for (const Oscillation& o : s.oscillations()) {
+  p.other_loads = std::max(p.other_loads, s.other_loads().size());
+  for (const ReducedExcitation& o : s.excitations()) {
+    if (o.ratio == 0.0) continue;
     for (int i = 0; i < p.n; ++i) {
       if (o.cosine(i) != 0.0 || o.sine(i) != 0.0) insert(p.forced, i);
     }

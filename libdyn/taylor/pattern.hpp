@@ -39,7 +39,7 @@ struct Pattern {
 
   int n = 0;
   std::vector<int> forced;                ///< coordinates with a load that changes
-  std::size_t oscillations = 0;           ///< loads of other frequencies, the most of any system
+  std::size_t other_loads = 0;            ///< loads of other frequencies, the most of any system
   std::vector<OffDiagonal> off_diagonal;  ///< rows that have any
   int off_diagonals = 0;                  ///< coefficients in all of them
   std::vector<ContactRows> contacts;

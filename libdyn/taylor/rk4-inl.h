@@ -41,7 +41,7 @@ class Rk4Lanes {
       films_.push_back(std::make_unique<FilmLanes<P>>(rows, 0, false));
     }
     disks_ = disks_of(pattern, contacts_);
-    swings_.resize(pattern.oscillations);
+    swings_.resize(pattern.other_loads);
   }
 
   /// Integrates at most as many trajectories as there are lanes.
@@ -128,7 +128,7 @@ class Rk4Lanes {
     const auto go_to = [&](const P& time) HWY_ATTR {
       sin_cos(rate_ * time, sine, cosine);
       for (size_t o = 0; o < swings_.size(); ++o) {
-        const OscillationLanes<P>& from = equations_.oscillations[o];
+        const OtherLoadLanes<P>& from = equations_.other_loads[o];
         sin_cos(fma(from.rate, time, from.start), swings_[o].sine, swings_[o].cosine);
       }
     };
@@ -169,7 +169,7 @@ class Rk4Lanes {
       a[i] = fnma(e.K[ui], y[i], fnma(e.D[ui], rate[i], load));
     }
     for (size_t o = 0; o < swings_.size(); ++o) {
-      const OscillationLanes<P>& of = e.oscillations[o];
+      const OtherLoadLanes<P>& of = e.other_loads[o];
       for (const int i : pattern_.forced) {
         const auto ui = static_cast<size_t>(i);
         a[i] = a[i] + fma(of.fc[ui], swings_[o].cosine, of.fs[ui] * swings_[o].sine);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libbase/numerics/quadrature.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 #include "libfe/mesh/shaft_elements.hpp"
 
 namespace whirl::inline fe {

@@ -4,7 +4,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {

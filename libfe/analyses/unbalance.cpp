@@ -37,12 +37,11 @@ struct UnbalanceSolver::State {
 
 UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
   const Sparse& T = assembler.dofs().T;
-  CVec force = T.transpose() * assembler.unbalance();
-  CVec steady;
-  if (!assembler.structure().bow.z.empty()) steady = T.transpose() * assembler.bow();
-  if (const CVec forces = synchronous_forces(assembler); forces.size() > 0) {
-    const CVec own = T.transpose() * forces;
-    steady = steady.size() > 0 ? CVec(steady + own) : own;
+  CVec force = CVec::Zero(T.cols()), steady;
+  for (const Excitation& e : synchronous_excitations(assembler)) {
+    const CVec own = T.transpose() * e.amplitude;
+    CVec& sum = e.growth == Growth::unbalance ? force : steady;
+    sum = sum.size() > 0 ? CVec(sum + own) : own;
   }
   state_ = std::make_unique<State>(State{assembler, std::move(force), std::move(steady)});
 }
@@ -80,7 +79,7 @@ std::optional<CVec> UnbalanceSolver::at(double Omega, const std::vector<Point>& 
   return u;
 }
 
-UnbalanceResponse oscillating_response(const Assembler& assembler, const OscillatingLoad& load,
+UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitation& load,
                                        const std::vector<double>& speeds,
                                        const std::vector<Point>& points) {
   const auto ns = static_cast<Eigen::Index>(speeds.size());
@@ -90,7 +89,7 @@ UnbalanceResponse oscillating_response(const Assembler& assembler, const Oscilla
   const bool changes = assembler.depends_on_speed() || assembler.depends_on_whirl();
   std::optional<DynamicStiffness> stiffness;
   for (Eigen::Index s = 0; s < ns; ++s) {
-    const double Omega = speeds[static_cast<std::size_t>(s)], w = load.at(Omega);
+    const double Omega = speeds[static_cast<std::size_t>(s)], w = load.frequency_at(Omega);
     if (!stiffness || changes) {
       const System system = assembler.uncondensed(Omega, w);
       stiffness.emplace(system.M, system.C, system.G, system.K);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline fe {
 
@@ -48,7 +48,7 @@ class UnbalanceSolver {
 /// The same to one of the loads of other frequencies, of that frequency: u(t) = Re(value e^(i w
 /// t)). Bearings take the coefficients of that frequency.
 /// @return  x, y: NaN at speeds where the dynamic stiffness is singular
-UnbalanceResponse oscillating_response(const Assembler& assembler, const OscillatingLoad& load,
+UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitation& load,
                                        const std::vector<double>& speeds,
                                        const std::vector<Point>& points);
 

@@ -368,11 +368,6 @@ CVec Assembler::bow() const {
   return force;
 }
 
-CVec Assembler::turning_load(double Omega) const {
-  const CVec u = Omega * Omega * unbalance();
-  return structure_.bow.z.empty() ? u : CVec(u + bow());
-}
-
 Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {
   const FullMatrices f = full(Omega, 0.0);
   const Vec displacement = dofs_.T * q;

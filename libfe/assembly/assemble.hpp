@@ -77,9 +77,6 @@ class Assembler {
   /// @source [Nicholas1976]
   CVec bow() const;
 
-  /// Amplitude of all that turns with the shaft at a speed: Omega^2 unbalance() + bow() [N, N.m].
-  CVec turning_load(double Omega) const;
-
   /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m], for
   /// displacements that last.
   Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;

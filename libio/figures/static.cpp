@@ -8,7 +8,7 @@
 
 #include "libdyn/system/running_film.hpp"
 #include "libfe/analyses/bending.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 

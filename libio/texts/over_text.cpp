@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 #include "libio/texts/some_rows.hpp"

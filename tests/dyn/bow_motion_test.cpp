@@ -58,8 +58,8 @@ TEST(BowMotion, IsInTheFewShapesOfAReduction) {
   const CMat Z =
       (r.K - Omega * Omega * r.M).cast<Complex>() + Complex(0.0, Omega) * r.D().cast<Complex>();
   CVec load(r.size());
-  load.real() = scene.contacts.cosine_load();
-  load.imag() = -scene.contacts.sine_load();
+  load.real() = scene.contacts.synchronous_load().cosine;
+  load.imag() = -scene.contacts.synchronous_load().sine;
   const CVec eta = DenseLu<CMat>(Z).solve(CMat(r.M * load));
   const CVec full = scene.displacement_map() * eta;
   const auto states = bow_states(model.structure.bow, scene.assembler.mesh().z);

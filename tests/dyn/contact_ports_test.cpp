@@ -133,9 +133,9 @@ TEST(PortForces, AreThoseOfTheEquationsOfMotion) {
         Vec y(system.size()), a(system.coordinates());
         y << x, rate;
         system.acceleration(phase, y.data(), a.data());
-        const Vec linear = system.constant_load() + std::cos(phase) * system.cosine_load() +
-                           std::sin(phase) * system.sine_load() - system.K() * x -
-                           system.D() * rate;
+        const Vec linear =
+            system.constant_load() + std::cos(phase) * system.synchronous_load().cosine +
+            std::sin(phase) * system.synchronous_load().sine - system.K() * x - system.D() * rate;
         Vec sum = Vec::Zero(a.size());  // blades that touch at once are samples of their own
         if (system.contacts().size() > 1) {
           for (const ReducedContact& one : system.contacts()) {

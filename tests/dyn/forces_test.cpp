@@ -1,7 +1,7 @@
 // Forces that do not follow from the motion in the equations of motion: every method has the same
 // motions, and simulations settle on the steady responses.
 
-#include "libfe/assembly/forces.hpp"
+#include "tests/dyn/forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include "libdyn/studies/map.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/analyses/unbalance.hpp"
-#include "tests/dyn/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::motion_forces_test {
 
@@ -43,9 +43,9 @@ Vec steady(const Assembler& assembler, double Omega, double t) {
     const CVec q = Z.partialPivLu().solve(rest.dofs.T.transpose() * load);
     full += assembler.dofs().T * (q * std::polar(1.0, w * t)).real();
   };
-  add(Omega, synchronous_load(assembler, Omega));
-  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
-    add(load.at(Omega), load.amplitude);
+  add(Omega, sum_at(synchronous_excitations(assembler), assembler, Omega));
+  for (const Excitation& load : other_excitations(assembler)) {
+    add(load.frequency_at(Omega), load.amplitude);
   }
   return full;
 }
@@ -116,9 +116,9 @@ TEST(MotionForces, KeepTheirPhaseOverMillionsOfRevolutions) {
   const Coupled rotor{.forces = {{.at = body("rotor"), .size = 1.0, .order = 0.5},
                                  {.at = body("rotor"), .size = 1.0, .order = 1.0 / 3.0}}};
   const ContactSystem system = rotor.scene().contacts;
-  ASSERT_EQ(system.oscillations().size(), 2u);
+  ASSERT_EQ(system.other_loads().size(), 2u);
   EXPECT_EQ(system.repeats_after(), 6);
-  for (const Oscillation& o : system.oscillations()) {
+  for (const ReducedExcitation& o : system.other_loads()) {
     EXPECT_NEAR(std::remainder(o.start_angle(6'000'000'001) - 2.0 * pi * o.order, 2.0 * pi), 0.0,
                 1e-6 * (o.order == 0.5 ? 1e-9 : 1.0));
   }
@@ -171,7 +171,7 @@ TEST(MotionForces, InLanesAreThoseAlone) {
     for (Force& f : forces) {
       if (f.frequency > 0.0) f.frequency *= 1.0 + 0.1 * i;
     }
-    forces.resize(static_cast<std::size_t>(i % 7));
+    forces.resize(static_cast<std::size_t>(i) % (forces.size() + 1));
     rotors.push_back({.Omega = 50.0 + i, .forces = forces, .clearance = 2e-4});
   }
   Trajectories together, alone, stepped;
@@ -221,7 +221,7 @@ TEST(MotionForces, OfAnOrderAreConstantAtRest) {
   const Coupled rotor{.Omega = 0.0, .forces = {{.at = body("rotor"), .size = 9.0, .order = 3.0}}};
   Coupled same = rotor;
   same.forces[0].order = 0.0;
-  EXPECT_TRUE(rotor.scene().contacts.oscillations().empty());
+  EXPECT_TRUE(rotor.scene().contacts.other_loads().empty());
   EXPECT_EQ(rotor.scene().contacts.constant_load(), same.scene().contacts.constant_load());
 }
 
@@ -233,8 +233,7 @@ TEST(MotionForces, OfOrderOneAreConstantAtRest) {
   Model model = rotor.model();
   model.structure.gravity = 0.0;
   const Scene scene = make_scene(model);
-  EXPECT_TRUE(scene.contacts.cosine_load().isZero(0.0));
-  EXPECT_TRUE(scene.contacts.sine_load().isZero(0.0));
+  EXPECT_TRUE(scene.contacts.synchronous_load().is_zero());
   MotionState state = start_of(model, scene);
   const Vec full = steady(scene.assembler, 0.0, 0.0);
   EXPECT_LT((displacement(scene, state) - full).norm(), 1e-12 * full.norm());

@@ -32,9 +32,7 @@ HarmonicProblem oscillator(double a, double damping, double F, double w,
                            std::function<void(double, double, PortSample&)> g) {
   HarmonicProblem p{.K = Mat::Constant(1, 1, a),
                     .D = Mat::Constant(1, 1, damping),
-                    .f0 = Vec::Zero(1),
-                    .fc = Vec::Constant(1, F),
-                    .fs = Vec::Zero(1),
+                    .loads = {{1.0, Vec::Constant(1, F), Vec::Zero(1)}},
                     .rate = w,
                     .scale = Vec::Ones(2)};
   const Mat one = Mat::Ones(1, 1);

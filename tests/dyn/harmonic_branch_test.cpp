@@ -39,9 +39,7 @@ std::vector<double> values(const Branch& branch, BifurcationKind kind) {
 std::shared_ptr<const HarmonicProblem> duffing(test::Duffing d) {
   HarmonicProblem p{.K = Mat::Constant(1, 1, d.a),
                     .D = Mat::Constant(1, 1, 2.0 * d.zeta),
-                    .f0 = Vec::Zero(1),
-                    .fc = Vec::Constant(1, d.F),
-                    .fs = Vec::Zero(1),
+                    .loads = {{1.0, Vec::Constant(1, d.F), Vec::Zero(1)}},
                     .rate = d.w,
                     .scale = Vec::Ones(2)};
   p.forces.push_back(

@@ -55,8 +55,8 @@ Vec moved(const ContactSystem& system, double h, double fraction, double phase, 
   E.block(n, 0, n, n) = -system.K() / unit;
   E.block(n, n, n, n) = -system.D();
   E.block(n, N, n, 1) = system.constant_load() / unit;
-  E.block(n, N + 1, n, 1) = system.cosine_load() / unit;
-  E.block(n, N + 2, n, 1) = system.sine_load() / unit;
+  E.block(n, N + 1, n, 1) = system.synchronous_load().cosine / unit;
+  E.block(n, N + 2, n, 1) = system.synchronous_load().sine / unit;
   E(N + 1, N + 2) = -w;
   E(N + 2, N + 1) = w;
   const Mat powers = legendre_powers();
@@ -241,8 +241,9 @@ TEST(LinearFlow, ComesFromTheEquationsOfMotion) {
   Vec acceleration(4);
   const ContactStates apart{{}};
   c.system().acceleration(c.phase, c.y.data(), apart, acceleration.data());
-  acceleration -= c.system().constant_load() + std::cos(c.phase) * c.system().cosine_load() +
-                  std::sin(c.phase) * c.system().sine_load();
+  acceleration -= c.system().constant_load() +
+                  std::cos(c.phase) * c.system().synchronous_load().cosine +
+                  std::sin(c.phase) * c.system().synchronous_load().sine;
   EXPECT_EQ(Vec(rates.head(4)), Vec(c.y.tail(4)));
   EXPECT_LT((rates.tail(4) - acceleration).norm(), rounding * (1.0 + acceleration.norm()) * 10.0);
   EXPECT_EQ(Vec(load_at(0.3)), (Vec{{1.0, std::cos(0.3), std::sin(0.3)}}));

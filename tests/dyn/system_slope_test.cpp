@@ -74,7 +74,7 @@ SystemSlope slope_by(const MassInRing& p, double MassInRing::*member, double siz
 const auto stiffness = [](const ContactSystem& s) -> Mat { return s.K(); };
 const auto clearance = [](const ContactSystem& s) { return s.contacts()[0].clearance; };
 const auto rim_speed = [](const ContactSystem& s) { return s.contacts()[0].rim_speed; };
-const auto load = [](const ContactSystem& s) -> Vec { return s.cosine_load(); };
+const auto load = [](const ContactSystem& s) -> Vec { return s.synchronous_load().cosine; };
 
 // K / m, U Omega^2 / m, Omega R: derivatives by hand.
 TEST(NumberSlopes, AreDerivatives) {

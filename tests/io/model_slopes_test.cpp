@@ -52,7 +52,7 @@ TEST(ModelSlopes, AreThoseOfCoefficientsInHeldShapes) {
   }
   // D = C + Omega G, fc = Omega^2 U e: both are known
   const double Omega = scene->contacts.Omega();
-  const auto load = [](const ContactSystem& s) { return s.cosine_load()(0); };
+  const auto load = [](const ContactSystem& s) { return s.synchronous_load().cosine(0); };
   EXPECT_NEAR(slope(slopes[1], load) * Omega, 2.0 * load(scene->contacts),
               rounding * std::abs(load(scene->contacts)));
   // a bearing's stiffness at its station: dK = (dK/dk) with K - k dK/dk that of the shaft alone

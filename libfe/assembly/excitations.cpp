@@ -1,4 +1,4 @@
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 #include <fmt/format.h>
 
@@ -26,14 +26,9 @@ std::array<Complex, 2> direction_of(const Force& f) {
   return {ahead * std::cos(f.angle), ahead * std::sin(f.angle)};
 }
 
-/// Sum of some forces.
-template <class Is>
-CVec sum_of(const Assembler& assembler, const Is& is) {
-  CVec sum = CVec::Zero(assembler.dofs().full_size);
-  for (const Force& f : assembler.structure().forces) {
-    if (is(f)) sum += amplitude_of(f, assembler);
-  }
-  return sum;
+/// A force as one of the loads.
+Excitation excitation_of(const Force& f, const Assembler& assembler) {
+  return {f.order, f.frequency, Growth::none, amplitude_of(f, assembler), f.name};
 }
 
 bool any_of(const Structure& s, bool (Force::*is)() const) {
@@ -42,7 +37,7 @@ bool any_of(const Structure& s, bool (Force::*is)() const) {
 
 }  // namespace
 
-std::string OscillatingLoad::label() const {
+std::string Excitation::label() const {
   if (order > 0.0) return fmt::format("{:.6g}x", order);
   return fmt::format("{:.6g} Hz", frequency / (2.0 * std::numbers::pi));
 }
@@ -63,39 +58,63 @@ CVec amplitude_of(const Force& force, const Assembler& assembler) {
   return load;
 }
 
-Vec static_load(const Assembler& assembler) {
-  const Vec weight = assembler.gravity_load();
-  if (!has_constant_force(assembler.structure())) return weight;
-  return weight + sum_of(assembler, [](const Force& f) { return f.is_constant(); }).real();
+std::vector<Excitation> constant_excitations(const Assembler& assembler) {
+  std::vector<Excitation> all{{.amplitude = assembler.gravity_load().cast<Complex>()}};
+  for (const Force& f : assembler.structure().forces) {
+    if (f.is_constant()) all.push_back(excitation_of(f, assembler));
+  }
+  return all;
 }
 
-CVec synchronous_forces(const Assembler& assembler) {
-  if (!any_of(assembler.structure(), &Force::is_synchronous)) return {};
-  return sum_of(assembler, [](const Force& f) { return f.is_synchronous(); });
+std::vector<Excitation> synchronous_excitations(const Assembler& assembler) {
+  const Structure& s = assembler.structure();
+  std::vector<Excitation> all;
+  if (!s.unbalances.empty()) {
+    all.push_back({.order = 1.0, .growth = Growth::unbalance, .amplitude = assembler.unbalance()});
+  }
+  if (!s.bow.z.empty()) all.push_back({.order = 1.0, .amplitude = assembler.bow()});
+  for (const Force& f : s.forces) {
+    if (f.is_synchronous()) all.push_back(excitation_of(f, assembler));
+  }
+  return all;
 }
 
-CVec synchronous_load(const Assembler& assembler, double Omega) {
-  CVec load = assembler.turning_load(Omega);
-  const CVec forces = synchronous_forces(assembler);
-  if (forces.size() > 0) load += forces;
-  return load;
-}
-
-std::vector<OscillatingLoad> oscillating_loads(const Assembler& assembler) {
+std::vector<Excitation> other_excitations(const Assembler& assembler) {
   // orders come before frequencies
-  std::map<std::pair<bool, double>, OscillatingLoad> all;
+  std::map<std::pair<bool, double>, Excitation> all;
   for (const Force& f : assembler.structure().forces) {
     if (f.is_constant() || f.is_synchronous()) continue;
     const bool has_order = f.order > 0.0;
-    const auto [at, is_new] = all.try_emplace({!has_order, has_order ? f.order : f.frequency});
-    OscillatingLoad& load = at->second;
-    if (is_new) load = {f.order, f.frequency, CVec::Zero(assembler.dofs().full_size)};
-    load.amplitude += amplitude_of(f, assembler);
-    load.forces += (load.forces.empty() ? "" : ", ") + f.name;
+    Excitation own = excitation_of(f, assembler);
+    const auto [at, is_new] = all.try_emplace({!has_order, has_order ? f.order : f.frequency}, own);
+    if (is_new) continue;
+    at->second.amplitude += own.amplitude;
+    at->second.names += ", " + own.names;
   }
-  std::vector<OscillatingLoad> loads;
-  for (auto& [key, load] : all) loads.push_back(std::move(load));
-  return loads;
+  std::vector<Excitation> excitations;
+  for (auto& [key, excitation] : all) excitations.push_back(std::move(excitation));
+  return excitations;
+}
+
+CVec sum_at(const std::vector<Excitation>& excitations, const Assembler& assembler, double Omega) {
+  if (excitations.empty()) return CVec::Zero(assembler.dofs().full_size);
+  CVec sum = excitations[0].growth_at(Omega) * excitations[0].amplitude;
+  for (std::size_t i = 1; i < excitations.size(); ++i) {
+    sum += excitations[i].growth_at(Omega) * excitations[i].amplitude;
+  }
+  return sum;
+}
+
+std::vector<Excitation> excitations_at(const Assembler& assembler, double Omega) {
+  std::vector<Excitation> all{
+      {.amplitude = sum_at(constant_excitations(assembler), assembler, Omega)},
+      {.order = 1.0, .amplitude = sum_at(synchronous_excitations(assembler), assembler, Omega)}};
+  for (Excitation& e : other_excitations(assembler)) all.push_back(std::move(e));
+  return all;
+}
+
+Vec static_load(const Assembler& assembler) {
+  return sum_at(constant_excitations(assembler), assembler, 0.0).real();
 }
 
 Vec2 steady_acceleration(const Structure& structure) {
@@ -126,9 +145,13 @@ bool has_constant_force(const Structure& structure) {
   return any_of(structure, &Force::is_constant);
 }
 
+bool has_synchronous_force(const Structure& structure) {
+  return any_of(structure, &Force::is_synchronous);
+}
+
 bool has_synchronous_load(const Structure& structure) {
   return !structure.unbalances.empty() || !structure.bow.z.empty() ||
-         any_of(structure, &Force::is_synchronous);
+         has_synchronous_force(structure);
 }
 
 }  // namespace whirl::inline fe

@@ -1,6 +1,4 @@
-// Loads of other frequencies than that of the speed: their angles, and when they repeat.
-
-#include "libdyn/system/oscillations.hpp"
+#include "libdyn/system/load_periods.hpp"
 
 #include <fmt/format.h>
 
@@ -32,7 +30,7 @@ long denominator_of(double ratio, long most) {
 }
 
 /// What is said of a load that changes too often for a revolution at this speed.
-NumericalError too_often(const Structure& structure, const OscillatingLoad& load, double ratio) {
+NumericalError too_often(const Structure& structure, const Excitation& load, double ratio) {
   std::string name;
   for (const Force& f : structure.forces) {
     const bool is_it = !f.is_constant() && f.order == load.order && f.frequency == load.frequency;
@@ -46,13 +44,13 @@ NumericalError too_often(const Structure& structure, const OscillatingLoad& load
 
 }  // namespace
 
-double frequency_ratio(const Structure& structure, const OscillatingLoad& load, double phase_rate) {
+double frequency_ratio(const Structure& structure, const Excitation& load, double phase_rate) {
   const double ratio = load.order > 0.0 ? load.order : load.frequency / phase_rate;
   if (ratio > most_often) throw too_often(structure, load, ratio);
   return ratio;
 }
 
-double Oscillation::start_angle(long revolution) const {
+double ReducedExcitation::start_angle(long revolution) const {
   const auto r = static_cast<double>(revolution);
   const double turns = ratio * r, rest = std::fma(ratio, r, -turns);
   return 2.0 * std::numbers::pi * (turns - std::floor(turns) + rest);
@@ -60,7 +58,7 @@ double Oscillation::start_angle(long revolution) const {
 
 long ContactSystem::repeats_after() const {
   long together = 1;
-  for (const Oscillation& o : oscillations_) {
+  for (const ReducedExcitation& o : excitations_) {
     const long q = denominator_of(o.ratio, o.order > 0.0 ? most_repeats : most_chance);
     if (q == 0) return 0;
     together = std::lcm(together, q);
@@ -71,8 +69,7 @@ long ContactSystem::repeats_after() const {
 bool follows_the_speed(const ContactSystem& system) {
   const bool turns = std::any_of(system.contacts().begin(), system.contacts().end(),
                                  [](const ReducedContact& c) { return c.turns(); });
-  return !system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0) ||
-         (turns && system.Omega() != 0.0);
+  return !system.synchronous_load().is_zero() || (turns && system.Omega() != 0.0);
 }
 
 namespace {
@@ -91,7 +88,7 @@ long repeats_of_first(const std::vector<double>& ratios) {
 
 std::vector<double> ratios_of(const ContactSystem& system) {
   std::vector<double> ratios;
-  for (const Oscillation& o : system.oscillations()) ratios.push_back(o.ratio);
+  for (const ReducedExcitation& o : system.other_loads()) ratios.push_back(o.ratio);
   return ratios;
 }
 
@@ -99,8 +96,9 @@ std::vector<double> ratios_of(const ContactSystem& system) {
 
 std::optional<double> load_period(const ContactSystem& system) {
   const std::vector<double> ratios = ratios_of(system);
-  const bool has_order = std::any_of(system.oscillations().begin(), system.oscillations().end(),
-                                     [](const Oscillation& o) { return o.order > 0.0; });
+  const auto others = system.other_loads();
+  const bool has_order = std::any_of(others.begin(), others.end(),
+                                     [](const ReducedExcitation& o) { return o.order > 0.0; });
   if (ratios.empty() || has_order || follows_the_speed(system)) return std::nullopt;
   if (const long often = repeats_of_first(ratios); often > 0) {
     return static_cast<double>(often) / ratios[0] * system.period();

@@ -1,16 +1,16 @@
 #pragma once
-/// Loads of other frequencies than that of the speed.
+/// When the loads of a system repeat.
 
 #include <optional>
 
 #include "libdyn/system/contact_system.hpp"
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {
 
 /// Frequency of a load over that of the speed [rad/s].
 /// @throws NumericalError  if it changes too often for a revolution at this speed
-double frequency_ratio(const Structure& structure, const OscillatingLoad& load, double phase_rate);
+double frequency_ratio(const Structure& structure, const Excitation& load, double phase_rate);
 
 /// Whether something turns with the rotor, once a revolution: unbalance, forces of order 1, places
 /// that a contact has on it.

@@ -1,7 +1,7 @@
 // Forces that do not follow from the motion: their loads and the steady responses to them, against
 // closed forms.
 
-#include "libfe/assembly/forces.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "libfe/analyses/unbalance.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl::forces_test {
+namespace whirl::excitations_test {
 
 using namespace test;
 
@@ -43,7 +43,7 @@ Complex receptance(double w) {
 }
 
 // A constant force F at angle a moves a mass by F / k along it; a moment turns it by M / k_t.
-TEST(Forces, ConstantOnesAreInTheStaticEquilibrium) {
+TEST(Excitations, ConstantOnesAreInTheStaticEquilibrium) {
   const Structure s = mass_on_spring({{.at = body("rotor"), .size = 30.0, .angle = 0.4},
                                       {.kind = ForceKind::moment,
                                        .at = body("rotor"),
@@ -58,7 +58,7 @@ TEST(Forces, ConstantOnesAreInTheStaticEquilibrium) {
 }
 
 // A base that accelerates by g along +y for good is gravity: sag, loads and the line of the shaft.
-TEST(Forces, AConstantAccelerationOfTheBaseIsGravity) {
+TEST(Excitations, AConstantAccelerationOfTheBaseIsGravity) {
   Structure heavy = two_disk(orthotropic(2e7, 3e7, 4e3, 5e3)), shaken = heavy;
   heavy.gravity = 9.81;
   shaken.forces = {
@@ -75,7 +75,7 @@ TEST(Forces, AConstantAccelerationOfTheBaseIsGravity) {
 
 // Along a direction (F cos a, F sin a) e^(i p) H(Omega); forward (1, -i) e^(i p), backward (1, i)
 // e^(-i p).
-TEST(Forces, OfOrderOneAreInTheResponseToUnbalance) {
+TEST(Excitations, OfOrderOneAreInTheResponseToUnbalance) {
   constexpr double Omega = 70.0, F = 5.0, p = 0.7, U = 3e-4;
   const Complex H = receptance(Omega), i(0.0, 1.0);
   const auto response = [&](Force force) {
@@ -100,20 +100,20 @@ TEST(Forces, OfOrderOneAreInTheResponseToUnbalance) {
 }
 
 // Without speed a force of order 1 stands still: at an unbalance response of 0 rpm it bends as one.
-TEST(Forces, OfOrderOneAtRestAreStatic) {
+TEST(Excitations, OfOrderOneAtRestAreStatic) {
   const Assembler a(mass_on_spring({{.at = body("rotor"), .size = 8.0, .order = 1.0}}));
   expect_near(unbalance_response(a, {0.0}, rotor).x(0, 0), 8.0 / k);
 }
 
 // F / (k - m w^2 + i c w) with w = 2 Omega, half of it, or that of a shaker.
-TEST(Forces, OfOtherFrequenciesHaveResponsesOfTheirOwn) {
+TEST(Excitations, OfOtherFrequenciesHaveResponsesOfTheirOwn) {
   const Structure s = mass_on_spring({{.at = body("rotor"), .size = 4.0, .frequency = 250.0},
                                       {.at = body("rotor"), .size = 2.0, .order = 2.0},
                                       {.at = body("rotor"), .size = 1.0, .order = 0.5},
                                       {.at = body("rotor"), .size = 1.0, .order = 2.0},
                                       {.at = body("rotor"), .size = 7.0}});
   const Assembler a(s);
-  const std::vector<OscillatingLoad> loads = oscillating_loads(a);
+  const std::vector<Excitation> loads = other_excitations(a);
   ASSERT_EQ(loads.size(), 3u);
   EXPECT_EQ(loads[0].label(), "0.5x");
   EXPECT_EQ(loads[1].label(), "2x");
@@ -124,7 +124,7 @@ TEST(Forces, OfOtherFrequenciesHaveResponsesOfTheirOwn) {
     const UnbalanceResponse found = oscillating_response(a, loads[l], speeds, rotor);
     for (Eigen::Index i = 0; i < 2; ++i) {
       expect_near(found.x(0, i),
-                  sizes[l] * receptance(loads[l].at(speeds[static_cast<size_t>(i)])));
+                  sizes[l] * receptance(loads[l].frequency_at(speeds[static_cast<size_t>(i)])));
       expect_near(found.y(0, i), 0.0);
     }
   }
@@ -133,25 +133,49 @@ TEST(Forces, OfOtherFrequenciesHaveResponsesOfTheirOwn) {
 
 // The base moves as u_0 = A cos(w t), a = -w^2 A: relative to it the mass moves by
 // m w^2 A / (k - m w^2 + i c w).
-TEST(Forces, AShakenBaseMovesAMassOnASpringAsInClosedForm) {
+TEST(Excitations, AShakenBaseMovesAMassOnASpringAsInClosedForm) {
   constexpr double A = 1e-3, w = 130.0;
   const Assembler a(
       mass_on_spring({{.kind = ForceKind::base_acceleration, .size = -w * w * A, .frequency = w}}));
-  const UnbalanceResponse found = oscillating_response(a, oscillating_loads(a).at(0), {0.0}, rotor);
+  const UnbalanceResponse found = oscillating_response(a, other_excitations(a).at(0), {0.0}, rotor);
   expect_near(found.x(0, 0), m * w * w * A * receptance(w));
 }
 
 // Beyond an undamped resonance all is finite; at it nothing is.
-TEST(Forces, AtAnUndampedResonanceHaveNoResponse) {
+TEST(Excitations, AtAnUndampedResonanceHaveNoResponse) {
   Structure s;
   s.bodies.push_back({.name = "rotor", .m = 1.0, .spins = true});
   s.bearings.push_back(bearing(body("rotor"), isotropic(1e4, 0.0)));
   s.forces = {{.at = body("rotor"), .size = 1.0, .order = 2.0}};
   const Assembler a(s);
   const UnbalanceResponse found =
-      oscillating_response(a, oscillating_loads(a).at(0), {50.0, 60.0}, rotor);
+      oscillating_response(a, other_excitations(a).at(0), {50.0, 60.0}, rotor);
   EXPECT_TRUE(std::isnan(found.x(0, 0).real()));
   EXPECT_TRUE(std::isfinite(found.x(0, 1).real()));
 }
 
-}  // namespace whirl::forces_test
+// One list has all of them, those of one frequency together; unbalance grows with the speed.
+TEST(Excitations, AreOneListOfExcitations) {
+  constexpr double U = 3e-4, Omega = 70.0, g = 9.81;
+  Structure s = mass_on_spring({{.at = body("rotor"), .size = 4.0, .frequency = 250.0},
+                                {.at = body("rotor"), .size = 7.0},
+                                {.at = body("rotor"), .size = 5.0, .order = 1.0},
+                                {.at = body("rotor"), .size = 2.0, .order = 0.5}});
+  s.gravity = g;
+  s.unbalances = {{.at = body("rotor"), .moment = U}};
+  const std::vector<Excitation> all = excitations_at(Assembler(s), Omega);
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_TRUE(all[0].is_constant());
+  expect_near(all[0].amplitude(0), 7.0);
+  expect_near(all[0].amplitude(1), -m * g);
+  EXPECT_TRUE(all[1].is_synchronous());
+  expect_near(all[1].amplitude(0), 5.0 + U * Omega * Omega);
+  expect_near(all[1].amplitude(1), Complex(0.0, -U * Omega * Omega));
+  EXPECT_EQ(all[2].order, 0.5);
+  EXPECT_EQ(all[3].frequency, 250.0);
+  const std::vector<Excitation> none = excitations_at(Assembler(mass_on_spring({})), Omega);
+  ASSERT_EQ(none.size(), 2u);
+  for (const Excitation& e : none) EXPECT_TRUE(e.amplitude.isZero(0.0));
+}
+
+}  // namespace whirl::excitations_test

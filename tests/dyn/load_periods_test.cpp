@@ -1,7 +1,7 @@
 // Loads of other frequencies than that of the speed: when they repeat, alone and together, and
 // which are too fast.
 
-#include "libdyn/system/oscillations.hpp"
+#include "libdyn/system/load_periods.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "tests/support/bladed_disk.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl::oscillations_test {
+namespace whirl::load_periods_test {
 
 using std::numbers::pi;
 using std::numbers::sqrt2;
@@ -37,7 +37,7 @@ Scene scene_of(const std::vector<double>& orders, const std::vector<double>& fre
   return make_scene(m);
 }
 
-TEST(Oscillations, FollowTheSpeedWhereSomethingTurns) {
+TEST(LoadPeriods, FollowTheSpeedWhereSomethingTurns) {
   EXPECT_FALSE(follows_the_speed(scene_of({}, {}).contacts));
   EXPECT_FALSE(follows_the_speed(scene_of({}, {30.0}).contacts));
   EXPECT_TRUE(follows_the_speed(scene_of({}, {}, 1e-4).contacts));
@@ -48,7 +48,7 @@ TEST(Oscillations, FollowTheSpeedWhereSomethingTurns) {
   EXPECT_TRUE(follows_the_speed(make_scene(blades).contacts));
 }
 
-TEST(Oscillations, HaveAPeriodOfTheirOwn) {
+TEST(LoadPeriods, HaveAPeriodOfTheirOwn) {
   const auto period = [](const std::vector<double>& frequencies) {
     const auto t = load_period(scene_of({}, frequencies).contacts);
     EXPECT_TRUE(t);
@@ -59,14 +59,14 @@ TEST(Oscillations, HaveAPeriodOfTheirOwn) {
   EXPECT_NEAR(period({30.0, 20.0, 25.0}), 0.2, rounding);
 }
 
-TEST(Oscillations, HaveNoPeriodBesideTheSpeedOrWithoutARatio) {
+TEST(LoadPeriods, HaveNoPeriodBesideTheSpeedOrWithoutARatio) {
   EXPECT_FALSE(load_period(scene_of({}, {}).contacts));
   EXPECT_FALSE(load_period(scene_of({}, {30.0}, 1e-4).contacts));
   EXPECT_FALSE(load_period(scene_of({2.0}, {}).contacts));
   EXPECT_FALSE(load_period(scene_of({}, {10.0, 10.0 * sqrt2}).contacts));
 }
 
-TEST(Oscillations, RepeatWithRevolutionsOrWithoutThem) {
+TEST(LoadPeriods, RepeatWithRevolutionsOrWithoutThem) {
   const auto repeats = [](const std::vector<double>& orders, const std::vector<double>& frequencies,
                           double unbalance) {
     return loads_repeat(scene_of(orders, frequencies, unbalance).contacts);
@@ -83,10 +83,10 @@ TEST(Oscillations, RepeatWithRevolutionsOrWithoutThem) {
   EXPECT_EQ(scene_of({}, {30.0}).contacts.repeats_after(), 0);
 }
 
-TEST(Oscillations, AreRefusedWhereTheyAreTooFast) {
+TEST(LoadPeriods, AreRefusedWhereTheyAreTooFast) {
   Structure structure;
   structure.forces = {{.name = "hum", .size = 1.0, .frequency = 3000.0}};
-  const OscillatingLoad load{.order = 0.0, .frequency = 3000.0, .amplitude = {}, .forces = "hum"};
+  const Excitation load{.order = 0.0, .frequency = 3000.0, .amplitude = {}, .names = "hum"};
   EXPECT_NEAR(frequency_ratio(structure, load, 60.0), 50.0, rounding * 50.0);
   EXPECT_THROW(frequency_ratio(structure, load, 0.1), NumericalError);
   try {
@@ -94,15 +94,15 @@ TEST(Oscillations, AreRefusedWhereTheyAreTooFast) {
   } catch (const NumericalError& error) {
     EXPECT_NE(std::string(error.what()).find("\"hum\""), std::string::npos) << error.what();
   }
-  const OscillatingLoad order{.order = 2.5, .frequency = 0.0, .amplitude = {}};
+  const Excitation order{.order = 2.5, .frequency = 0.0, .amplitude = {}};
   EXPECT_EQ(frequency_ratio(structure, order, 60.0), 2.5);
   EXPECT_EQ(frequency_ratio(structure, order, 0.1), 2.5);
 }
 
 // Where it is after a billion revolutions, to the last digits: ratio times that, whole turns off.
-TEST(Oscillations, KeepTheirAngleOverManyRevolutions) {
+TEST(LoadPeriods, KeepTheirAngleOverManyRevolutions) {
   constexpr double kept = 1e-12;  // [rad]
-  Oscillation o;
+  ReducedExcitation o;
   o.ratio = 0.375;
   EXPECT_NEAR(o.start_angle(0), 0.0, kept);
   EXPECT_NEAR(o.start_angle(1), 0.75 * pi, kept);
@@ -111,4 +111,4 @@ TEST(Oscillations, KeepTheirAngleOverManyRevolutions) {
   EXPECT_NEAR(o.angle({2.0, 1}), 0.75 * pi + 0.75, kept);
 }
 
-}  // namespace whirl::oscillations_test
+}  // namespace whirl::load_periods_test

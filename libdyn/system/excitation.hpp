@@ -1,0 +1,33 @@
+#pragma once
+/// A load of a reduced system, over the angle that it has gone through.
+
+#include "libbase/numerics/linalg.hpp"
+
+namespace whirl::inline dyn {
+
+/// When: a phase within a revolution, and which revolution that is. Only loads that do not repeat
+/// with the revolution ask for the latter.
+struct Instant {
+  double phase = 0.0;  ///< [rad]
+  long revolution = 0;
+
+  Instant(double at_phase, long in_revolution = 0) : phase(at_phase), revolution(in_revolution) {}
+};
+
+/// cosine cos(alpha) + sine sin(alpha), alpha = ratio times the angle of the rotor.
+struct ReducedExcitation {
+  double order = 0.0;      ///< of the speed; 0: a frequency of its own, or constant
+  double frequency = 0.0;  ///< [rad/s]
+  double ratio = 0.0;      ///< of that to the rate of the phase; 0: constant
+  Vec cosine, sine;        ///< accelerations of the coordinates
+
+  bool is_zero() const { return cosine.isZero(0.0) && sine.isZero(0.0); }
+  /// alpha at the start of a revolution, 0 to 2 pi: to the last digit, however many there were.
+  double start_angle(long revolution) const;
+  double angle(const Instant& at) const {
+    if (ratio == 1.0) return at.phase;
+    return start_angle(at.revolution) + ratio * at.phase;
+  }
+};
+
+}  // namespace whirl::inline dyn
