@@ -96,6 +96,7 @@ HardestTouches hardest_touches(const BranchResult& branches) {
 BranchResult branch_result(const BranchTree& tree, const ParameterName& parameter,
                            const std::vector<std::string>& stations) {
   BranchResult result{.parameter = parameter,
+                      .state_layout = std::string(StateLayout::parts),
                       .is_complete = tree.is_complete() ? 1 : 0,
                       .stations = stations,
                       .contacts = tree.layout.contacts,

@@ -16,7 +16,7 @@ namespace whirl::inline dyn {
 struct BranchRow : EndTexts {
   int number = 1;  ///< from 1
   int period = 1;  ///< [revolutions]
-  int parent = 0;  ///< number of the branch that it begins on; 0: none
+  int parent = 0;  ///< number of the branch on which this one begins; 0: none
 
   std::optional<int> parent_branch() const;
 
@@ -51,7 +51,7 @@ struct BranchOrbit {
   CVec multipliers{};              ///< as many as states; NaN behind the last one
   std::vector<double> radii{};     ///< per station: largest distance from the axis [m]
   Mat sections_x{}, sections_y{};  ///< stations x revolutions, NaN beyond the period [m]
-  /// Per probe, see OrbitMeasure; NaN in files of before [m].
+  /// Per probe, see OrbitMeasure; NaN in files of earlier versions [m].
   std::vector<double> probe_peak_to_peak{};
   std::vector<double> duty{}, impacts{}, max_normal{}, max_tangential{};  ///< per contact
 
@@ -123,7 +123,7 @@ struct BranchBifurcation {
   int branch = 1;           ///< its number
   int after = 0;            ///< number of the point before, from 0
   std::string contact{};    ///< of a grazing
-  double change = 0.0;      ///< of a grazing: in its impacts a period
+  double change = 0.0;      ///< of a grazing: of its contact's impacts a period
   Complex multiplier{1.0};  ///< the critical one; of a grazing NaN
 
   std::optional<Complex> critical() const;
@@ -159,12 +159,13 @@ struct BranchResult {
   ParameterName parameter{};
   OrbitMethod method{};
   std::optional<int> harmonics{};  ///< of harmonic balance
+  std::string state_layout{};      ///< see StateLayout::parts; empty in files of earlier versions
   std::string fixed{};             ///< PATH=VALUE lines of a second parameter
   int is_complete = 0;             ///< 1: nothing is left to be walked
   std::vector<BranchRow> branches{};
   std::vector<std::string> stations{};  ///< whose amplitudes are told
   std::vector<std::string> contacts{};
-  ProbeLabels probes{};               ///< those of the model
+  ProbeLabels probes{};               ///< of the model
   std::vector<BranchOrbit> points{};  ///< of all branches, one after the other
   std::vector<BranchBifurcation> bifurcations{};
   std::vector<double> walk{};  ///< what the study goes on from, packed
@@ -186,6 +187,9 @@ struct BranchResult {
             column("method", &B::method, "", "how the orbits are found").only(in_json),
             column("harmonics", &B::harmonics, "", "of harmonic balance").maybe(),
             column("fixed", &B::fixed, "", "value of a second parameter").only(in_file).maybe(),
+            column("state_layout", &B::state_layout, "", "parts of a state, in their order")
+                .only(in_file)
+                .maybe(),
             column("complete", &B::is_complete, "", "0: the study was stopped")
                 .only(in_file)
                 .maybe(),
@@ -202,10 +206,10 @@ struct BranchResult {
   }
 };
 
-/// The hardest touches of all orbits, by their numbers from 0.
+/// The hardest touches of all orbits, with the numbers of these orbits from 0.
 HardestTouches hardest_touches(const BranchResult& branches);
 
-/// @param stations  names of those that the tree measures
+/// @param stations  names of the stations that the tree measures
 BranchResult branch_result(const BranchTree& tree, const ParameterName& parameter,
                            const std::vector<std::string>& stations);
 

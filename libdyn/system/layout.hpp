@@ -1,6 +1,7 @@
 #pragma once
-/// Where the parts of a state stand in it.
+/// Where the parts of a state stand.
 
+#include <string_view>
 #include <type_traits>
 
 #include "libbase/numerics/linalg.hpp"
@@ -11,9 +12,12 @@ namespace whirl::inline dyn {
 /// Nothing else knows that order.
 class StateLayout {
  public:
-  /// Of states of so many coordinates.
+  /// The parts of a state in their order, for files that hold states.
+  static constexpr std::string_view parts = "displacements, rates";
+
+  /// The layout of states of so many coordinates.
   constexpr StateLayout(Eigen::Index coordinates) : coordinates_(static_cast<int>(coordinates)) {}
-  /// Of a state that has so many numbers.
+  /// The layout of a state that has so many numbers.
   static constexpr StateLayout of(Eigen::Index size) { return StateLayout(size / 2); }
 
   constexpr int coordinates() const { return coordinates_; }
@@ -27,7 +31,7 @@ class StateLayout {
   template <class States>
   requires requires { std::remove_cvref_t<States>::IsVectorAtCompileTime; }
   auto eta(States&& y) const { return rows(y, 0); }
-  /// Their rates, likewise.
+  /// Rates of a state, or of all states in the columns of a matrix: a view that can be written to.
   template <class States>
   requires requires { std::remove_cvref_t<States>::IsVectorAtCompileTime; }
   auto rate(States&& y) const { return rows(y, coordinates_); }
@@ -46,7 +50,8 @@ class StateLayout {
     return y + size();
   }
 
-  /// Of a matrix whose columns belong to the numbers of a state: those of displacements, of rates.
+  /// Columns of displacements, or of rates, of a matrix whose columns belong to the numbers of a
+  /// state.
   template <class Matrix>
   auto eta_columns(Matrix&& m) const {
     return m.leftCols(coordinates_);

@@ -140,4 +140,17 @@ TEST_F(StoredModel, PointsOfBranchesSetNumbers) {
   }
 }
 
+// Files say in which order the parts of a state stand; those of earlier versions do not, and have
+// the order of today. A file with another one is not read as if it had this one.
+TEST_F(StoredModel, PointsOfBranchesHaveStatesOfAKnownLayout) {
+  const fs::path earlier = WHIRL_SOURCE_DIR "/tests/fuzz/results/branch.h5";
+  const Vec state = read_branch_point(earlier, 1).state;
+  fs::copy_file(earlier, path, fs::copy_options::overwrite_existing);
+  set_attribute(path, "/branch", "state_layout", std::string(StateLayout::parts).c_str());
+  EXPECT_EQ(read_branch_point(path, 1).state, state);
+  set_attribute(path, "/branch", "state_layout", "rates, displacements");
+  const std::string said = test::problem_of([&] { read_branch_point(path, 1); });
+  EXPECT_NE(said.find("rates, displacements"), std::string::npos) << said;
+}
+
 }  // namespace whirl::stored_model_test
