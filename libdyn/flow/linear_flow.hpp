@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "libbase/numerics/legendre.hpp"
-#include "libdyn/system/contact_system.hpp"
+#include "libdyn/system/abilities.hpp"
 
 namespace whirl::inline dyn {
 
 /// y' = A y + F (1, cos phase, sin phase) - B f(t), with f a polynomial on each step. Loads of
-/// other frequencies than that of the phase it does not know.
+/// other frequencies than that of the phase are not part of this flow.
 ///
 ///   y(t + h) = (I + X) y(t) + L (1, cos phase(t), sin phase(t)) + G a
 ///
 /// a: Legendre coefficients of f on the step, ordered by contact, component (x, y), degree.
-/// Matrices belong to step sizes longest / 2^level. Where |A| h <= 1/4 they are Taylor series,
-/// above they follow from the level below:
+/// Matrices belong to step sizes longest / 2^level. Where |A| h <= 1/4 the matrices are Taylor
+/// series, else they follow from those of half the step:
 ///
 ///   X <- 2 X + X X,   L <- L + X L + L R,   G <- (I + X) G Q_1 + G Q_2
 ///
@@ -27,13 +27,16 @@ namespace whirl::inline dyn {
 /// @source [MolerVanLoan2003], method 3 (scaling and squaring)
 class LinearFlow {
  public:
-  /// Step sizes that there are: levels count from 0.
+  static constexpr std::array cannot{Need::other_orders, Need::own_frequencies};
+  static constexpr Abilities abilities{"exact linear flow", cannot};
+
+  /// Number of step sizes; levels count from 0.
   static constexpr int levels = 64;
 
   /// @param longest  size at level 0 [s]
   /// @param terms    of the polynomials f
   /// @throws NumericalError  where the fastest motion of the system is too fast beside `longest`:
-  ///                         no level is as short as its Taylor series asks for
+  ///                         the Taylor series asks for a step shorter than all levels
   LinearFlow(const ContactSystem& system, double longest, int terms);
 
   /// Matrices of one step size.
@@ -50,7 +53,7 @@ class LinearFlow {
 
   /// Moves y on by a fraction (0 to 1) of a step, with forces of the given contacts.
   ///
-  /// @param load  (1, cos phase, sin phase) at its start
+  /// @param load  (1, cos phase, sin phase) at the start of the step
   /// @param a     coefficients of the forces on the whole step
   void advance(int level, double fraction, const Eigen::Vector3d& load, const Vec& a,
                std::span<const int> touching, Vec& y);
@@ -68,8 +71,7 @@ class LinearFlow {
  private:
   void build_by_series(Table& t) const;
   void build_by_doubling(Table& t, const Table& half) const;
-  /// rows() of a time d by Taylor series, with the forces of so many columns of B as powers of t /
-  /// d.
+  /// rows() for a time d by Taylor series; forces of so many columns of B are powers of t / d.
   Rows rows_by_series(double d, const Mat& r, int columns) const;
   Eigen::Matrix3d rotation(double t) const;
   bool is_small(int level) const { return norm_ * size(level) <= 0.25; }
@@ -88,7 +90,7 @@ class LinearFlow {
 /// (1, cos phase, sin phase).
 Eigen::Vector3d load_at(double phase);
 
-/// Norm of A in the units that make it small: a bound of its eigenvalues [rad/s].
+/// Norm of A in units that make this norm small: a bound of the eigenvalues of A [rad/s].
 ///
 /// @source [ParlettReinsch1969], balancing by powers of two
 double balanced_norm(Mat A);
@@ -96,7 +98,7 @@ double balanced_norm(Mat A);
 /// A of y' = A y + ..., for y = (eta, eta').
 Mat first_order_matrix(const ContactSystem& system);
 
-/// Acceleration along a contact by a unit of force in it, at most: |U B| [1/kg].
+/// Largest acceleration along a contact by a unit of force in this contact: |U B| [1/kg].
 double contact_gain(const ReducedContact& contact);
 
 /// Frequency of the rotor in its contacts, w_c = (sum over contacts of k |U B|)^(1/2) [rad/s], k

@@ -277,26 +277,13 @@ CollocationRun::Result CollocationRun::finish(long last) {
 Integration Collocation::integrate(const ContactSystem& system, MotionState& state,
                                    long revolutions, const IntegrationOptions& options,
                                    const Observer& observer) {
-  if (!suits_collocation(system)) {
-    throw ModelError(
-        {}, "method collocation",
-        !system.other_loads().empty()
-            ? "knows loads of the frequency of the speed only; take taylor for other forces"
-        : system.films().empty()
-            ? "is for contacts of rings and stops only; take taylor for faces and blades"
-            : "cannot compute oil films, which carry without a pause; take taylor");
-  }
+  abilities.require(system);
   return CollocationRun(system, state, options, observer).go(state.revolution + revolutions);
 }
 
-bool suits_collocation(const ContactSystem& system) {
-  return system.films().empty() && system.other_loads().empty() &&
-         std::all_of(system.contacts().begin(), system.contacts().end(),
-                     [](const ReducedContact& c) { return !c.turns() && !c.rubs_apart(); });
-}
-
 bool prefers_collocation(const ContactSystem& system) {
-  return suits_collocation(system) && fastest_mode(system) > 10.0 * contact_frequency(system);
+  return Collocation::abilities.can(system) &&
+         fastest_mode(system) > 10.0 * contact_frequency(system);
 }
 
 }  // namespace whirl::inline dyn

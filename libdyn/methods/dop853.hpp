@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "libdyn/system/abilities.hpp"
 #include "libdyn/system/trajectory.hpp"
 
 namespace whirl::inline dyn {
@@ -15,6 +16,7 @@ namespace whirl::inline dyn {
 /// @source [HairerNorsettWanner1993], sec. II.5 and II.6
 struct Dop853 {
   static constexpr std::string_view name = "dop853";
+  static constexpr Abilities abilities{"method dop853"};
 
   /// Integrates over whole revolutions from where the state is.
   ///

@@ -32,6 +32,10 @@ std::string_view name_of_method(const AnyMethod& method) {
   return std::visit([](const auto& m) { return m.name; }, method);
 }
 
+const Abilities& abilities_of(const AnyMethod& method) {
+  return std::visit([](const auto& m) -> const Abilities& { return m.abilities; }, method);
+}
+
 std::vector<std::string_view> method_names() {
   std::vector<std::string_view> names;
   for_each_method([&](auto method) { names.push_back(decltype(method)::name); });

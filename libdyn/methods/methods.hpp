@@ -18,12 +18,15 @@ namespace whirl::inline dyn {
 using AnyMethod =
     std::variant<Taylor, Collocation, Dop853, CvodeAdams, CvodeBdf, Arkode, ArkodeDirk, Rk4>;
 
-/// The method that suits a system: collocation beside modes much faster than its contacts, whose
-/// steps do not follow them, else Taylor series.
+/// The method that suits a system: collocation, whose steps do not follow fast modes, for modes
+/// much faster than the contacts, else Taylor series.
 AnyMethod suitable_method(const ContactSystem& system);
 
 /// The name of a method.
 std::string_view name_of_method(const AnyMethod& method);
+
+/// What a method cannot do.
+const Abilities& abilities_of(const AnyMethod& method);
 
 /// Names of all methods, in the order of the list.
 std::vector<std::string_view> method_names();

@@ -2,13 +2,14 @@
 
 #include <string_view>
 
+#include "libdyn/system/abilities.hpp"
 #include "libdyn/system/trajectory.hpp"
 
 namespace whirl::inline dyn {
 
 /// The classical Runge-Kutta method of order 4 with equal steps and no regard to events, as many
-/// published studies of rubbing rotors use it: contacts and the sign of friction are what the state
-/// of each stage says.
+/// published studies of rubbing rotors use it: contacts and the sign of friction follow from the
+/// state of each stage.
 ///
 ///     0 |
 ///   1/2 | 1/2
@@ -22,11 +23,12 @@ namespace whirl::inline dyn {
 ///
 /// There is no error control: a revolution takes a whole number of steps, of `fixed_step` at most,
 /// or if that is not given 1000 at the default tolerance of 1e-10 (the number of those studies) and
-/// tolerance^(-1/4) times as many at others, as the error of a smooth motion follows them.
+/// (tolerance / 1e-10)^(-1/4) times as many at others, as the error of a smooth motion asks.
 ///
 /// @source [Kutta1901]
 struct Rk4 {
   static constexpr std::string_view name = "rk4";
+  static constexpr Abilities abilities{"method rk4"};
   static Integration integrate(const ContactSystem& system, MotionState& state, long revolutions,
                                const IntegrationOptions& options, const Observer& observer);
 };

@@ -26,13 +26,9 @@ double bytes_of_sample(int coordinates, std::size_t contacts, std::size_t writte
 /// The method of a name; empty: the one that suits.
 AnyMethod method_for(const ContactSystem& system, const std::string& name) {
   if (name.empty()) return suitable_method(system);
-  if (name == Collocation::name && !suits_collocation(system)) {
-    throw ModelError(
-        {"method collocation"}, "",
-        "is for contacts of rings and stops only, without oil films and forces of other "
-        "frequencies than the speed; take taylor");
-  }
-  return method_named(name);
+  const AnyMethod method = method_named(name);
+  abilities_of(method).require(system);
+  return method;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "libbase/numerics/newton.hpp"
 #include "libbase/system/interruption.hpp"
 #include "libdyn/orbits/shooting.hpp"
+#include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -74,6 +75,10 @@ MotionState start_before(const Mat& S, const Vec& z, double angle) {
   return start;
 }
 
+NumericalError not_in_the_rotating_frame(const std::string& refusal) {
+  return NumericalError(fmt::format("{}: {}", rotating_abilities.who, refusal));
+}
+
 /// Whether accelerations turn with the state and the phase, in contact and out of it.
 void require_isotropy(const ContactSystem& system, const Mat& S) {
   const StateLayout layout = system.layout();
@@ -87,9 +92,7 @@ void require_isotropy(const ContactSystem& system, const Mat& S) {
       system.acceleration(0.0, y.data(), a.data());
       system.acceleration(angle, turned.data(), b.data());
       if ((b - R * a).norm() > isotropic * a.norm()) {
-        throw NumericalError(
-            "the rotating frame: gravity, bearings or contacts, or a force, tell directions apart, "
-            "so that nothing repeats there");
+        throw not_in_the_rotating_frame(rotating_abilities.refusal(Need::directions));
       }
     }
   }
@@ -183,13 +186,9 @@ MotionState rotating_start(const Scene& scene, const Vec& z, double revolutions)
 
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
   const ContactSystem& system = scene->contacts;
-  if (!(system.Omega() > 0.0) || system.coordinates() == 0) {
-    throw NumericalError("the rotating frame: the rotor does not spin forward");
-  }
-  if (!system.other_loads().empty()) {
-    throw NumericalError(
-        "the rotating frame: a force of another order than 1, or with a frequency of its own, does "
-        "not stand still there");
+  require_coordinates(system);
+  if (!rotating_abilities.can(system)) {
+    throw not_in_the_rotating_frame(rotating_abilities.refusal(system));
   }
   const Mat S = quarter_turn(*scene);
   require_isotropy(system, S);

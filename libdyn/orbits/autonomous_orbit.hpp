@@ -1,5 +1,5 @@
 #pragma once
-/// Closed motions whose period is not known: of equations in which time does not occur.
+/// Closed motions of unknown period, of equations in which time does not occur.
 
 #include <functional>
 #include <optional>
@@ -21,7 +21,7 @@ struct AutonomousFlow {
     Failure failure;
   };
   Vec scale;                ///< of the states
-  double revolution = 1.0;  ///< in which periods are told [s]
+  double revolution = 1.0;  ///< duration of a revolution, the unit of periods [s]
   std::function<Result(const Vec& y, double time, WithTangent wanted)> go;  ///< time > 0 [s]
   std::function<Vec(const Vec& y)> rate;                                    ///< f(y) [1/s]
 };
@@ -43,44 +43,51 @@ struct AutonomousOrbit {
 ///
 ///   flow(y, T) - y = 0,   <f(y), dy> = 0
 ///
-/// @param start, period  near it
+/// @param start, period  of a motion near the orbit
 /// @source [Kuznetsov2004], 10.1.4
 AutonomousOrbit find_autonomous_orbit(const AutonomousFlow& flow, const Vec& start, double period,
                                       int most_steps = 12);
 
 /// Derivative of (gap, <f, dy>) by state and period, in scales.
 /// @param tangent  of the flow over the period
-/// @param start, end  rates there
+/// @param start, end  rates f at the start and the end of the period
 Mat autonomous_jacobian(const Mat& tangent, const Vec& start, const Vec& end);
 
-/// The same motion with the shortest period it has, a part of the given one.
+/// The same orbit with its shortest period, a part of the given one.
 AutonomousOrbit shorten(const AutonomousFlow& flow, const AutonomousOrbit& cycle);
 
-/// What turns reduced states of a scene by an angle about the axis [rad].
+/// The matrix that turns reduced states of a scene by an angle about the axis [rad].
 /// @throws NumericalError  for a basis that is not closed under rotation
 Mat rotation(const Scene& scene, double angle);
 
-/// Where a motion begins that is z as seen from the rotor, so many revolutions before it comes to
-/// phase 0, where both frames are the same.
-/// @throws NumericalError  likewise
+/// Start of a motion that reaches phase 0, where both frames are the same, after so many
+/// revolutions; z is its state at the start as seen from the rotor.
+/// @throws NumericalError  as rotation
 MotionState rotating_start(const Scene& scene, const Vec& z, double revolutions);
 
-/// The rotor as it is seen from its own frame, where unbalance stands still: states are turned back
-/// by the phase. Time does not occur there if nothing but the unbalance tells directions apart.
+/// What has order 1 stands still in the frame of the rotor, and nothing else.
+inline constexpr std::array not_seen_from_the_rotor{Need::standstill, Need::other_orders,
+                                                    Need::own_frequencies, Need::directions};
+inline constexpr Abilities rotating_abilities{"the rotating frame", not_seen_from_the_rotor,
+                                              "take the stationary frame"};
+
+/// The flow of the rotor as seen from its own frame, where unbalance stands still: states are
+/// turned back by the phase. Time does not occur in that frame if nothing but the unbalance tells
+/// directions apart.
 ///
-/// @throws NumericalError  for gravity, anisotropic bearings, contacts off the axis, or a basis
-///                         that is not closed under rotation
+/// @throws NumericalError  for a system beyond rotating_abilities, or a basis that is not closed
+///                         under rotation
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance = flow_tolerance);
 
-/// The same of a scene at another value of a parameter, for the states of a first scene: see
-/// flow_of.
+/// The rotating flow of a scene at another value of a parameter, for states in the basis of a first
+/// scene: see flow_of.
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
                              double tolerance = flow_tolerance);
 
-constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
+constexpr long most_recurrence = 64;  ///< revolutions within which a recurrence is looked for
 
-/// Time after which a motion from a start comes back to it nearest, as a first guess [s]; nothing
-/// if it does not come near, or stands still.
+/// Time after which a motion comes back near its start as seen from the rotor, a first guess of a
+/// period [s]; nothing if the motion does not come near, or stands still.
 std::optional<double> recurrence(const Scene& scene, const Vec& start, long revolutions);
 
 }  // namespace whirl::inline dyn

@@ -66,33 +66,15 @@ Mat BasisChange::back(const Mat& y) const {
   return back_->solve(y);
 }
 
-void require_periodic_loads(const ContactSystem& system) {
-  const auto loads = system.other_loads();
-  const bool follow_the_speed = std::all_of(
-      loads.begin(), loads.end(), [](const ReducedExcitation& o) { return o.order > 0.0; });
-  if (follow_the_speed && system.repeats_after() > 0) return;
-  throw ModelError(
-      {}, "force",
-      follow_the_speed
-          ? "an order that is no fraction of small whole numbers makes a torus of every motion: "
-            "there are no orbits and no return map, but motions to simulate and classify"
-          : "a force with a frequency of its own makes a torus of every motion that has the "
-            "frequency of the speed too, but at speeds in a simple ratio to it: there are no "
-            "orbits of whole revolutions and no return map, but motions to simulate and classify; "
-            "or give the force an order of the speed");
-}
-
 void require_loads_of_a_revolution(const Flow& flow) {
   if (flow.repeats == 1) return;
-  throw ModelError({}, "force",
-                   fmt::format("the forces repeat after {} revolutions only: expected orders that "
-                               "are whole numbers; others go with one orbit of that period",
-                               flow.repeats));
+  throw ModelError({std::string(branch_abilities.who)}, "",
+                   branch_abilities.refusal(Need::several_revolutions));
 }
 
 Flow flow_of(const ContactSystem& system, double tolerance) {
   require_coordinates(system);
-  require_periodic_loads(system);
+  orbit_abilities.require(system);
   return {
       system.state_scale(), system.period(),
       [&system, tolerance](std::span<const Vec> starts, long revolutions, WithTangent tangents) {

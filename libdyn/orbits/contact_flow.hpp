@@ -5,23 +5,34 @@
 
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/orbits/shooting.hpp"
+#include "libdyn/system/abilities.hpp"
 #include "libdyn/system/scene.hpp"
 
 namespace whirl::inline dyn {
 
 constexpr double flow_tolerance = 1e-13;  ///< of steps for orbits and their multipliers
 
-/// @throws ModelError  for forces with a frequency of their own, whose motions never repeat
-void require_periodic_loads(const ContactSystem& system);
+/// What never repeats has no orbit.
+inline constexpr std::array never_repeat{Need::irrational_orders, Need::own_frequencies};
+inline constexpr Abilities orbit_abilities{
+    "orbits and return maps", never_repeat,
+    "simulate and classify its motions, or give the force another order of the speed"};
+
+/// Branches and circles are of maps that are the same in every revolution.
+inline constexpr std::array change_by_revolution{Need::several_revolutions};
+inline constexpr Abilities branch_abilities{
+    "branches and circles", change_by_revolution,
+    "give the forces orders that are whole numbers, or look for one orbit of that period"};
 /// @throws ModelError  for a map that is not the same in every revolution
 void require_loads_of_a_revolution(const Flow& flow);
 
-/// From phase 0 to phase 0, with event-exact tangents; the contacts follow from the states.
+/// The flow from phase 0 to phase 0, with event-exact tangents; what contacts do at a start follows
+/// from its state.
 /// @param system  must live as long as the flow
-/// @throws ModelError  as require_periodic_loads
+/// @throws ModelError  for a system beyond orbit_abilities
 Flow flow_of(const ContactSystem& system, double tolerance = flow_tolerance);
 
-/// The states of a scene for those of a first one, whose basis may be another.
+/// The change from states of a first scene to those of a scene whose basis may be another.
 ///
 ///   y = P y_first,  P = (Phi^T M Phi)^-1 Phi^T M Phi_first  for displacements and velocities
 class BasisChange {
@@ -38,10 +49,10 @@ class BasisChange {
   std::shared_ptr<const DenseLu<Mat>> back_;
 };
 
-/// The same of a scene at another value of a parameter, for the states of a first scene.
+/// The flow of a scene at another value of a parameter, for states in the basis of a first scene.
 ///
-/// Orbits and multipliers are exactly those of the scene; their coordinates are continuous in the
-/// parameter, whatever order and signs the modes of its basis have.
+/// Orbits and multipliers are exactly those of the scene; the coordinates of orbits are continuous
+/// in the parameter, whatever order and signs the modes of the scene's basis have.
 ///
 /// @throws NumericalError  if the bases have nothing in common
 Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first,

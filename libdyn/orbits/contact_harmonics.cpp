@@ -23,7 +23,7 @@ constexpr int kept = 80;            ///< harmonics of them
 
 HarmonicProblem harmonic_problem(const ContactSystem& system) {
   require_coordinates(system);
-  require_periodic_loads(system);
+  orbit_abilities.require(system);
   std::vector<HarmonicProblem::Load> loads;
   for (const ReducedExcitation& e : system.excitations()) {
     loads.push_back({e.order, e.cosine, e.sine});

@@ -17,7 +17,8 @@ WorkPrecisionOptions whole(WorkPrecisionOptions options, const ContactSystem& sy
   if (start.phase > 0.0) options.discard = std::max(1L, options.discard);
   if (!options.methods.empty()) return options;
   for (const std::string_view name : candidate_names()) {
-    if (name != Collocation::name || suits_collocation(system)) options.methods.emplace_back(name);
+    if (name != Collocation::name || Collocation::abilities.can(system))
+      options.methods.emplace_back(name);
   }
   return options;
 }

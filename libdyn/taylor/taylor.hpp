@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "libdyn/system/abilities.hpp"
 #include "libdyn/system/trajectory.hpp"
 
 namespace whirl::inline dyn {
@@ -14,6 +15,7 @@ namespace whirl::inline dyn {
 /// @source [JorbaZou2005] for order and step; docs/methods.md, "Taylor series" for contacts
 struct Taylor {
   static constexpr std::string_view name = "taylor";
+  static constexpr Abilities abilities{"method taylor"};
 
   int order = 0;  ///< 8 to 20; 0: by the tolerance
 

@@ -342,7 +342,7 @@ TEST(FaceContact, HoldsTheStaticSag) {
 
 TEST(FaceContact, IsNothingForCollocation) {
   const Scene scene = set_T.scene();
-  EXPECT_FALSE(suits_collocation(scene.contacts));
+  EXPECT_FALSE(Collocation::abilities.can(scene.contacts));
   EXPECT_FALSE(prefers_collocation(scene.contacts));
   MotionState state = test::start_of(set_T.model(), scene);
   EXPECT_THROW(test::run(scene, state, 1, {.method = Collocation{}}), ModelError);

@@ -158,7 +158,7 @@ TEST(MotionForces, AreTheSameForEveryMethod) {
 TEST(MotionForces, CollocationRefusesThem) {
   const Coupled rotor{.forces = every_kind()};
   const Scene scene = rotor.scene();
-  EXPECT_FALSE(suits_collocation(scene.contacts));
+  EXPECT_FALSE(Collocation::abilities.can(scene.contacts));
   MotionState state = start_of(rotor.model(), scene);
   EXPECT_THROW(run(scene, state, 1, {.method = method_named("collocation")}), ModelError);
 }

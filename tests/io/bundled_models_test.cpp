@@ -110,7 +110,7 @@ TEST(BundledModels, MoveAlikeByEveryMethod) {
     };
     const Vec reference = end(Dop853{}, 1e-14);
     EXPECT_LT((end(Taylor{}, 1e-12) - reference).cwiseAbs().maxCoeff(), 1e-9);
-    if (suits_collocation(scene.contacts)) {
+    if (Collocation::abilities.can(scene.contacts)) {
       EXPECT_LT((end(Collocation{}, 1e-10) - reference).cwiseAbs().maxCoeff(), 1e-7);
     }
     EXPECT_LT((end(CvodeAdams{}, 1e-11) - reference).cwiseAbs().maxCoeff(), 1e-5);
