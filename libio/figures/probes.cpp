@@ -113,15 +113,6 @@ std::vector<Figure> probe_histories(const ResultView& result) {
 
 namespace {
 
-/// Axes around numbers that may all be the same, but for rounding: then the size of the motion is
-/// their scale.
-/// @param room  to both sides then
-void keep_room(FigureAxis& axis, const std::vector<double>& values, double room) {
-  if (values.empty()) return;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  if (*high - *low <= room) axis.first = *low - room, axis.last = *high + room;
-}
-
 /// What a probe reads once a revolution: in time, and each over the one before.
 Figure section_of(const ResultView& result, const Motion& m, const ProbeSignal& probe) {
   const DisplayUnit unit = unit_of(probe);

@@ -23,6 +23,7 @@ constexpr const char* libraries[] = {"libbase", "libfe", "libcontact", "libdyn",
 std::vector<fs::path> documents() {
   std::vector<fs::path> folders{root, root / "docs", root / "python"};
   for (const char* library : libraries) folders.push_back(root / library);
+  folders.push_back(root / "libdyn/taylor");
   std::vector<fs::path> all;
   for (const fs::path& folder : folders) {
     for (const auto& entry : fs::directory_iterator(folder)) {

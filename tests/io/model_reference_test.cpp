@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -83,6 +84,7 @@ spins = true
       {"## `[[bearing]]`", "[[bearing]]\nbody = \"b\"\nstiffness = 1\nqqqqqqqq = 1\n"},
       {"## `[[bearing]]`",
        "[[bearing]]\nbody = \"b\"\nstiffness = { xx = 1, yy = 1, qqqqqqqq = 1 }\n"},
+      {"## `[[seal]]`", "[[seal]]\nbody = \"b\"\nstiffness = 1\nqqqqqqqq = 1\n"},
       {"## `[[link]]`", "[[link]]\nfrom = \"b\"\nto = \"ground\"\nstiffness = 1\nqqqqqqqq = 1\n"},
       {"## `[[contact]]`",
        "[[contact]]\nbody = \"b\"\nclearance = 1\nstiffness = 1\nqqqqqqqq = 1\n"},
@@ -96,6 +98,12 @@ spins = true
       {"## `[start]`", "[start]\nwhirl = [ { mode = 1, amplitude = 1, qqqqqqqq = 1 } ]\n"},
   };
   const std::string text = manual();
+  for (auto at = text.find("\n## `["); at != std::string::npos; at = text.find("\n## `[", at + 1)) {
+    const std::string heading = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    EXPECT_TRUE(std::any_of(std::begin(tables), std::end(tables),
+                            [&](const Table& table) { return table.heading == heading; }))
+        << heading << " is not tried";
+  }
   for (const Table& table : tables) {
     SCOPED_TRACE(table.heading);
     const auto from = text.find(table.heading);
