@@ -145,7 +145,7 @@ TEST_F(ForceVerbs, OrbitsRepeatWithForcesOfTheirOrder) {
   const Outcome branch =
       whirl({"continue", "rotor.toml", "--over", "operation.speed=700:800:10rpm", "--period", "2"});
   EXPECT_EQ(branch.status, 2);
-  EXPECT_TRUE(has(branch.err, "expected orders that are whole numbers")) << branch.err;
+  EXPECT_TRUE(has(branch.err, "give the forces orders that are whole numbers")) << branch.err;
   const Outcome along = whirl({"continue", "rotor.toml", "--over", "force.force 1.order=1:2:0.1"});
   EXPECT_EQ(along.status, 2);
   EXPECT_TRUE(has(along.err, "there is no branch along them")) << along.err;
