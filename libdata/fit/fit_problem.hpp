@@ -12,7 +12,7 @@
 
 namespace whirl::inline data {
 
-/// How many standard deviations chance does not reach.
+/// Deviations of more than so many standard deviations are not chance.
 inline constexpr double improbable = 6.0;
 
 /// Readings of displacement probes while the rotor turned at a constant speed.

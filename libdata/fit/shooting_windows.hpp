@@ -34,8 +34,8 @@ class ShootingWindow {
   Eigen::Index states() const { return 2 * source_->rows.cols(); }
   bool has_next() const { return has_next_; }
 
-  /// State at the beginning that the readings suggest: the displacements nearest to zero that have
-  /// these readings, and the rates nearest to zero at which the readings change so.
+  /// State at the beginning that the readings suggest: the smallest coordinates that have these
+  /// readings, and the smallest rates of coordinates that change the readings as measured.
   /// @param offset  that readings have, per probe [m]
   Vec guess(const Vec& offset) const;
 

@@ -36,7 +36,7 @@ struct SteadyRecord {
 ///
 /// The standard error of a probe's readings is taken from what differs between periods, so that
 /// noise that is correlated over a few samples counts as it should. An unknown offset (FitRecord)
-/// may wander: the mean of each period is taken off.
+/// may wander: what the mean of a period differs by from the mean of the record is taken off.
 ///
 /// A motion counts as steady if samples scatter about the average by no more than 1.5 times the
 /// noise (FitRecord::noise; where that is empty or zero, from differences of successive samples),

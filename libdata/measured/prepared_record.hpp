@@ -8,7 +8,7 @@ namespace whirl::inline data {
 struct PreparedRecord {
   Mat samples;                   ///< times x channels, each of mean zero and variance one
   double spacing = 0.0;          ///< time between them [s]
-  Eigen::RowVectorXd deviation;  ///< standard deviation of each channel before, in its unit
+  Eigen::RowVectorXd deviation;  ///< standard deviation that a channel was divided by, in its unit
 };
 
 /// Looks at a record, takes harmonics of the speed out of it if that is asked for, and thins it

@@ -19,7 +19,7 @@ struct BranchEquations {
     Vec residual;                          ///< of all equations, in scales; empty: see failure
     Mat jacobian;                          ///< of the residual by x, if wanted
     std::vector<ContactMeasure> contacts;  ///< shares of the period
-    std::function<CVec()> multipliers;     ///< of a solution, the largest first; as the jacobian
+    std::function<CVec()> multipliers;     ///< of a solution, largest first; set with the jacobian
     /// Exact derivative of the residual by the parameter's value at fixed x, if the jacobian is
     /// wanted. A null function, an empty value or a NumericalError: the derivative is not known,
     /// and a difference takes its place.

@@ -220,8 +220,10 @@ constexpr auto choices(Verdict) {
 /// A rule, and what was found for it.
 struct LateralCheck {
   LateralRule rule = LateralRule::separation_margin;
-  int of_case = -1;    ///< from 0; -1: of none
-  std::string place;   ///< station or clearance; of stability: where the cross-coupling acts
+  int of_case = -1;  ///< from 0; -1: of none
+  /// Station or clearance; of stability the station of the cross-coupling, or "threshold of
+  /// instability"; of a resonance without damping "undamped resonance".
+  std::string place;
   double speed = nan;  ///< at which it was found [rad/s]
   double found = nan;  ///< in SI, as the rule says
   double limit = nan;  ///< in SI, as the rule says
@@ -248,7 +250,7 @@ struct LateralReport {
   std::string vibration_unit{};       ///< in which people are told vibration; empty: um
   std::string coupled_station;        ///< where the cross-coupled stiffness acts
   double anticipated = nan;           ///< Q_A [N/m]; NaN: not told
-  double limit = nan;                 ///< Q_0 [N/m]; 0: unstable without Q; NaN: stable with any Q
+  double limit = nan;                 ///< Q_0 [N/m]; 0: bears no Q; NaN: stable with any Q
   double log_decrement = nan;         ///< the least with Q_A, or without any cross-coupling
   double rigid_critical_speed = nan;  ///< the first one on rigid supports [rad/s]; NaN: none
   double gas_density = nan;           ///< average [kg/m^3]; NaN: not told

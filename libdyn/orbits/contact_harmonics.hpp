@@ -16,8 +16,8 @@ HarmonicProblem harmonic_problem(const ContactSystem& system);
 
 /// Derivative of the harmonic problem of a system by a parameter, in the form that
 /// HarmonicEquations::slope takes.
-/// @param slopes  in the coordinates of the result; the system, of which contacts, films and orders
-///                of loads count, may have others
+/// @param system  its contacts, films and orders of loads count; may be in other coordinates
+/// @param slopes  in the coordinates of the result
 HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& slopes);
 
 /// Fourier coefficients of the motion of all coordinates over the next revolutions, as if the

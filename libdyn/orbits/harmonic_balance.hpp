@@ -53,9 +53,9 @@ struct HarmonicOrbit {
 
 /// Finds a periodic orbit by harmonic balance with Newton's method.
 ///
-/// The number of harmonics is doubled until the motion no longer changes: changes that fall by q a
-/// doubling sum up to q / (1 - q) of the last one, which is the estimate of the truncation. Before
-/// a given number of harmonics, half that number is tried.
+/// The number of harmonics is doubled until the estimate of the truncation is below the tolerance:
+/// changes that fall by q a doubling sum up to q / (1 - q) of the last one. Before a given number
+/// of harmonics, half that number is tried.
 ///
 /// @param start  Fourier coefficients of a motion near the orbit, n x any odd number
 HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& start,

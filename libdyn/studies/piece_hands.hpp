@@ -44,7 +44,7 @@ class PieceHands {
   PieceHands(const PieceHands&) = delete;
   PieceHands& operator=(const PieceHands&) = delete;
 
-  /// Threads of all processes; a process that has not begun counts as many as this one.
+  /// Threads of all processes; a process that has not begun counts with as many as this one has.
   int threads() const {
     int all = threads_;
     for (const Other& other : others_) all += other.threads > 0 ? other.threads : work_.threads;

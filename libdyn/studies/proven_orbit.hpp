@@ -32,7 +32,7 @@ struct OrbitCandidate {
 int repeating_period(const ContactSystem& system, const std::vector<double>& sections, double bound,
                      int longest);
 
-/// Newton's method on the return maps; candidates that are no attracting orbits are taken off.
+/// Newton's method on the return maps; candidates that are no attracting orbits are removed.
 /// @param tolerance   of a step, where it is finer than the one that orbits are found with
 /// @param watch       as in BatchOptions, with the revolutions of each pass; false: stop
 /// @param is_patient  goes on where convergence is slow

@@ -61,8 +61,8 @@ std::vector<RunningClearance> running_clearances(const Model& model, const Assem
                                                  const Vec& displacement);
 
 /// The same clearances where a motion takes most of each, in the order of the model.
-/// @param basis, coordinates  displacements of all points (full vectors) are basis * coordinates, a
-///               column an instant
+/// @param basis, coordinates  displacements of all points (full vectors) are basis * coordinates,
+///                            a column an instant
 std::vector<RunningClearance> largest_distances(const Model& model, const Assembler& assembler,
                                                 const Mat& basis, const Mat& coordinates);
 
@@ -70,8 +70,8 @@ std::vector<RunningClearance> largest_distances(const Model& model, const Assemb
 ///
 /// The distance is the largest in a period: of the orbit from the middle of the clearance circle,
 /// with a stop towards the stop, with a face that of its rim along the axis. Static sag is not part
-/// of the response. The ends of ranges lie between two of the speeds, where the distance is the
-/// clearance to 1e-9.
+/// of the response. An end of a range is the speed at which the distance is the clearance, to 1e-9
+/// of the speed, or the first or last of the speeds.
 ///
 /// @param speeds  ascending, near enough to each other [rad/s]: those of a ResponseCurve
 std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& assembler,

@@ -93,11 +93,12 @@ double ContactSystem::phase_rate() const {
 void ContactSystem::smooth_acceleration(const Instant& at, const double* y, double* a) const {
   Eigen::Map<Vec> result(a, coordinates());
   const auto eta = layout().eta(y), rate = layout().rate(y);
-  result = constant_load();
-  for (const ReducedExcitation& load : std::span(excitations_).subspan(1)) {
+  const ReducedExcitation& turning = synchronous_load();
+  result =
+      constant_load() + std::cos(at.phase) * turning.cosine + std::sin(at.phase) * turning.sine;
+  for (const ReducedExcitation& load : other_loads()) {
     const double alpha = load.angle(at);
-    result += std::cos(alpha) * load.cosine;
-    result += std::sin(alpha) * load.sine;
+    result += std::cos(alpha) * load.cosine + std::sin(alpha) * load.sine;
   }
   result.noalias() -= K_ * eta;
   result.noalias() -= D_ * rate;

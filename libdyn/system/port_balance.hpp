@@ -9,7 +9,7 @@
 
 namespace whirl::inline dyn {
 
-/// Rows of a matrix none of which follows from earlier ones, and all rows as sums of these.
+/// Linearly independent rows of a matrix, and all rows as combinations of these.
 struct IndependentRows {
   std::vector<Eigen::Index> chosen;  ///< ascending
   Mat of;                            ///< all rows = of * chosen rows

@@ -26,8 +26,8 @@ struct Axis {
   std::vector<Tick> ticks(int most) const;
 };
 
-/// Whether the limits of an axis are far enough apart for their size, and none is too large, so
-/// that places and ticks are not lost in rounding.
+/// Whether places and ticks of an axis can be computed: its limits are far enough apart for their
+/// size and not above 1e300 (nor below 1e-300, if logarithmic).
 bool can_be_drawn(const Axis& axis);
 
 /// The axis of round limits that shows all numbers; numbers above 1e300 (or below 1e-300, if

@@ -52,8 +52,8 @@ std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view gro
 /// ones that are no places.
 std::string without_places(std::string text);
 
-/// A line for a shell that calls a verb on the model of a result, with what was set in it, and with
-/// some of the options of the result's own call; places may be added.
+/// A line for a shell that calls a verb on the model of a result, with the values that were set in
+/// the model, and with some of the options of the result's own call; places may be added.
 /// @param kept  names of these options, as far as they were given
 std::string command_on_model(const ResultView& result, const std::string& verb,
                              const std::vector<std::string_view>& kept);
@@ -100,8 +100,8 @@ Curve line_across(const std::string& name, const Vec2& direction, double distanc
 
 /// A curve for the dots of a path in time, one a revolution; it has no dots yet.
 Curve dots_of_revolutions();
-/// Gives an axis a range if its values are equal but for rounding, which would be drawn large
-/// otherwise.
+/// Gives an axis a range if its values differ by `room` at most, as by rounding, which would be
+/// drawn large otherwise.
 /// @param room  to both sides of the values; values that are farther apart have the range that they
 ///              need
 void keep_room(FigureAxis& axis, const std::vector<double>& values, double room);

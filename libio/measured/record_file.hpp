@@ -27,7 +27,7 @@ MeasuredRecord read_record(const std::filesystem::path& path, std::optional<doub
 void write_record(const std::filesystem::path& path, const MeasuredRecord& record,
                   Replaces replaces);
 
-/// Checks that the ending of a file is one of these formats, before there is anything to write.
+/// Checks that a file has one of these endings, before there is anything to write.
 /// @throws ModelError  if the file has another ending
 void require_record_ending(const std::filesystem::path& path);
 

@@ -10,7 +10,7 @@ namespace whirl::inline io {
 
 namespace columns {
 
-/// The column, written into files, that a member of a struct is; null: there is none.
+/// The column of a member of a struct, if files have that column; else null.
 template <HasColumns T, class Member>
 const AnyColumn* column_of(const Member& member) {
   const AnyColumn* found = nullptr;

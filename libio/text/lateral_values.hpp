@@ -24,8 +24,8 @@ Parsed<double> parse_gas_density(std::string_view text);
 /// "1200kW:450mm:18mm:1.3".
 Parsed<std::vector<Stage>> parse_stages(std::string_view text);
 
-/// Says of bare numbers of --cross-coupling and --gas-density what they mean, and in which unit of
-/// other countries they may be meant; empty texts: not given.
+/// Says of bare numbers of --cross-coupling and --gas-density what they mean, and which US unit may
+/// have been meant; empty texts: not given.
 std::vector<std::string> bare_value_notes(const std::string& coupling,
                                           const std::string& gas_density);
 

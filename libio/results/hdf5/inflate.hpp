@@ -1,5 +1,5 @@
 #pragma once
-/// Decompression of what zlib compressed, in this folder since nothing else uses zlib.
+/// Decompression of what zlib compressed; in this folder, as no other folder uses zlib.
 
 #include <cstddef>
 #include <optional>
