@@ -255,10 +255,12 @@ void Continuation::accept(Trial trial) {
 
 bool Continuation::advance() {
   const std::size_t known = branch_.bifurcations.size();
+  const bool had_ended = branch_.end.has_value();
   try {
     return add_point();
   } catch (...) {
     branch_.bifurcations.resize(known);
+    if (!had_ended) branch_.end.reset();
     throw;
   }
 }

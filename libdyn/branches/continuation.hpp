@@ -104,7 +104,7 @@ class Continuation {
   Trial closing(const BranchPoint& a, const BranchPoint& b) const;
   /// Arc length from a from which on orbits repeat after half their period, if that is before b.
   std::optional<double> halving(const BranchPoint& a, const BranchPoint& b) const;
-  /// advance(), which leaves bifurcations behind where an exception leaves it.
+  /// advance(), which leaves bifurcations or an end behind where an exception leaves it.
   bool add_point();
   /// Adds the bifurcations between two points; false: one of these could not be located.
   bool find_bifurcations(const BranchPoint& a, const BranchPoint& b);

@@ -36,7 +36,7 @@ std::optional<Mat> periodic_motion(const ContactSystem& system) {
   }
   const ReducedExcitation& load = system.synchronous_load();
   if (!load.is_zero()) {
-    // (K - w^2 + i w D) q = fc - i fs, eta = Re(q e^(i phase))
+    // (K - w^2 + i w D) q = cosine - i sine, eta = Re(q e^(i phase))
     const CMat dynamic = (system.K() - w * w * Mat::Identity(n, n)).cast<Complex>() +
                          Complex(0.0, w) * system.D().cast<Complex>();
     const DenseLu<CMat> lu(dynamic);

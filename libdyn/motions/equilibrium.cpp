@@ -18,7 +18,7 @@ constexpr double lightest = 1e-16;
 /// The rotor held at its films and at some contacts, in coordinates of a motion: nothing, if that
 /// leaves it free.
 ///
-///   [K  s B; s W  0] (eta, -F / s) = (f0, s w)
+///   [K  s B; s W  0] (eta, -F / s) = (f, s w),   f: the constant load
 ///
 /// W are rows of independent ports, B the accelerations that forces there make.
 std::optional<HeldRotor> held_rotor(const ContactSystem& system,

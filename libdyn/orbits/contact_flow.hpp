@@ -13,16 +13,18 @@ namespace whirl::inline dyn {
 constexpr double flow_tolerance = 1e-13;  ///< of steps for orbits and their multipliers
 
 /// What never repeats has no orbit.
-inline constexpr std::array never_repeat{Need::irrational_orders, Need::own_frequencies};
+inline constexpr std::array never_repeat{Need::own_frequencies, Need::irrational_orders};
 inline constexpr Abilities orbit_abilities{
     "orbits and return maps", never_repeat,
-    "simulate and classify its motions, or give the force another order of the speed"};
+    "it makes a torus of every motion that has the frequency of the speed, too; simulate and "
+    "classify these, or give the force an order of the speed"};
 
 /// Branches and circles are of maps that are the same in every revolution.
-inline constexpr std::array change_by_revolution{Need::several_revolutions};
+inline constexpr std::array change_by_revolution{Need::own_frequencies, Need::irrational_orders,
+                                                 Need::several_revolutions};
 inline constexpr Abilities branch_abilities{
     "branches and circles", change_by_revolution,
-    "give the forces orders that are whole numbers, or look for one orbit of that period"};
+    "give the forces orders that are whole numbers, or look for one orbit of their period"};
 /// @throws ModelError  for a map that is not the same in every revolution
 void require_loads_of_a_revolution(const Flow& flow);
 

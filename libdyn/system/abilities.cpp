@@ -8,6 +8,8 @@
 
 namespace whirl::inline dyn {
 
+static_assert(needs.size() == static_cast<std::size_t>(Need::directions) + 1, "all are listed");
+
 namespace {
 
 bool any_load(const ContactSystem& system, bool has_order) {
@@ -31,13 +33,11 @@ std::string_view name_of(Need need) {
     case Need::several_revolutions:
       return "forces that repeat after several revolutions only";
     case Need::irrational_orders:
-      return "a force of an order that is no fraction of small whole numbers, which makes a torus "
-             "of every motion";
+      return "a force of an order that is no fraction of small whole numbers";
     case Need::own_frequencies:
-      return "a force with a frequency of its own, which makes a torus of every motion that has "
-             "the frequency of the speed too";
+      return "a force with a frequency of its own";
     case Need::films:
-      return "an oil film, which carries without a pause";
+      return "an oil film";
     case Need::blades:
       return "a contact of blades";
     case Need::faces:
@@ -57,7 +57,7 @@ bool has_need(const ContactSystem& system, Need need) {
     case Need::several_revolutions:
       return system.repeats_after() > 1;
     case Need::irrational_orders:
-      return any_load(system, true) && system.repeats_after() == 0;
+      return !any_load(system, false) && system.repeats_after() == 0;
     case Need::own_frequencies:
       return any_load(system, false);
     case Need::films:
@@ -84,7 +84,8 @@ bool Abilities::can(const ContactSystem& system) const {
 }
 
 std::string Abilities::refusal(Need need) const {
-  return fmt::format("cannot compute {}{}{}", name_of(need), instead.empty() ? "" : ": ", instead);
+  return fmt::format("not possible with {}{}{}", name_of(need), instead.empty() ? "" : ": ",
+                     instead);
 }
 
 std::string Abilities::refusal(const ContactSystem& system) const {

@@ -16,7 +16,7 @@ namespace whirl::inline dyn {
 /// A rotor carried by its films, without unbalance, contacts and whirl.
 struct RotorOnFilms {
   double Omega = 0.0;              ///< [rad/s]
-  System system;                   ///< without films, nothing condensed
+  System system;                   ///< coefficients of 0 Hz, without films, nothing condensed
   Vec q;                           ///< displacement in the coordinates of the system
   Vec load;                        ///< full vector of the loads and the films' forces [N, N.m]
   std::vector<RunningFilm> films;  ///< those that are linearized, in the order of the model

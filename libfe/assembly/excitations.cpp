@@ -109,7 +109,11 @@ std::vector<Excitation> excitations_at(const Assembler& assembler, double Omega)
   std::vector<Excitation> all{
       {.amplitude = sum_at(constant_excitations(assembler), assembler, Omega)},
       {.order = 1.0, .amplitude = sum_at(synchronous_excitations(assembler), assembler, Omega)}};
-  for (Excitation& e : other_excitations(assembler)) all.push_back(std::move(e));
+  for (Excitation& e : other_excitations(assembler)) {
+    e.amplitude *= e.growth_at(Omega);
+    e.growth = Growth::none;
+    all.push_back(std::move(e));
+  }
   return all;
 }
 

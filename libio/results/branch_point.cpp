@@ -42,8 +42,8 @@ BranchStart read_branch_point(const std::filesystem::path& path, long number) {
     throw FileError(path.string() + " holds no branches; whirl continue --out writes them");
   }
   if (!branches.state_layout.empty() && branches.state_layout != StateLayout::parts) {
-    throw FileError(fmt::format("{}: states of \"{}\", known are those of \"{}\"", path.string(),
-                                branches.state_layout, StateLayout::parts));
+    throw FileError(fmt::format("{} holds states as \"{}\", this version reads \"{}\" only",
+                                path.string(), branches.state_layout, StateLayout::parts));
   }
   if (number > std::ssize(branches.points)) {
     throw wrong_option("point", std::to_string(number),

@@ -24,6 +24,22 @@ Continuation on_a_circle(long& evaluations) {
           {.low = -2.0, .high = 2.0, .first = 0.3, .largest_step = 0.1, .most_points = 400}};
 }
 
+/// x = 1 - u of u from 0 to 2: there is no solution beyond 1, and the branch ends before it.
+Continuation to_where_nothing_is(long& evaluations) {
+  BranchEquations equations{[&evaluations](const Vec& x, double u, WithTangent) {
+    interruption_point();
+    ++evaluations;
+    if (u > 1.0) return BranchEquations::Value{.failure = "nothing"};
+    BranchEquations::Value at{.residual = Vec::Constant(1, x(0) - (1.0 - u)),
+                              .jacobian = Mat::Identity(1, 1)};
+    at.multipliers = [] { return CVec{{Complex(0.5, 0.0)}}; };
+    return at;
+  }};
+  return {std::move(equations),
+          Vec::Ones(1),
+          {.low = 0.0, .high = 2.0, .first = 0.0, .largest_step = 0.1, .most_points = 400}};
+}
+
 bool never() {
   return false;
 }
@@ -60,6 +76,27 @@ TEST(BranchWalk, IsWhereItWasIfItIsStoppedOnTheWayToAPoint) {
     for (std::size_t i = 0; i < branch.bifurcations.size(); ++i) {
       ASSERT_EQ(branch.bifurcations[i].at.z, expected.bifurcations[i].at.z) << last;
     }
+  }
+}
+
+// Where a walk is stopped while it looks why nothing is ahead, the branch has not ended.
+TEST(BranchWalk, HasNotEndedIfItIsStoppedAtItsEnd) {
+  long all = 0;
+  Continuation whole = to_where_nothing_is(all);
+  const long begun = all;
+  while (advance(whole, never)) {
+  }
+  ASSERT_TRUE(whole.branch().end);
+  for (long last = begun; last < all; ++last) {
+    long evaluations = 0;
+    Continuation walk = to_where_nothing_is(evaluations);
+    while (advance(walk, [&] { return evaluations >= last; })) {
+    }
+    ASSERT_FALSE(walk.branch().end) << last;
+    while (advance(walk, never)) {
+    }
+    ASSERT_EQ(walk.branch().points.size(), whole.branch().points.size()) << last;
+    ASSERT_EQ(walk.branch().end->kind, whole.branch().end->kind) << last;
   }
 }
 
