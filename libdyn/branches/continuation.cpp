@@ -255,12 +255,11 @@ void Continuation::accept(Trial trial) {
 
 bool Continuation::advance() {
   const std::size_t known = branch_.bifurcations.size();
-  const bool had_ended = branch_.end.has_value();
   try {
     return add_point();
   } catch (...) {
     branch_.bifurcations.resize(known);
-    if (!had_ended) branch_.end.reset();
+    branch_.end.reset();  // an ended branch evaluates nothing: the end is of this point
     throw;
   }
 }

@@ -37,11 +37,11 @@ double side(const std::vector<double>& speeds, const Vec& a, Eigen::Index k, int
 
 /// Numbers of the speeds that are not the one before but for rounding.
 std::vector<Eigen::Index> speeds_apart(const std::vector<double>& speeds) {
-  constexpr double same = 1e-12;
   std::vector<Eigen::Index> apart;
   for (Eigen::Index k = 0; k < std::ssize(speeds); ++k) {
     const double speed = speeds[static_cast<std::size_t>(k)];
-    if (!apart.empty() && speed <= (1.0 + same) * speeds[static_cast<std::size_t>(apart.back())]) {
+    if (!apart.empty() &&
+        speed <= (1.0 + same_speed) * speeds[static_cast<std::size_t>(apart.back())]) {
       continue;
     }
     apart.push_back(k);

@@ -8,6 +8,9 @@
 
 namespace whirl::inline fe {
 
+/// Relative distance up to which only rounding tells two speeds apart.
+inline constexpr double same_speed = 1e-12;
+
 /// A peak of a response over speed.
 struct ResponsePeak {
   Eigen::Index row = 0;    ///< the response that is largest there

@@ -15,9 +15,8 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double visible_peak =
-    1e-3;  ///< of a point's largest motion: below, its phase is not looked at
-constexpr double same_speed = 1e-12;  ///< relative distance of speeds that rounding makes two of
-constexpr double finest = 1e-8;      ///< relative distance of speeds; a sharper turn has no damping
+    1e-3;                        ///< of a point's largest motion: below, its phase is not looked at
+constexpr double finest = 1e-8;  ///< relative distance of speeds; a sharper turn has no damping
 constexpr double tolerance = 1e-10;  ///< of peaks and their sides, relative
 constexpr double flat_peak = 1e-9;   ///< relative height of a peak that may be rounding
 constexpr double beside_resonance =
