@@ -6,8 +6,8 @@
 
 namespace whirl::inline contact {
 
-/// A blade that a force of 1 N along the circumference bends at its tip: y = sum_{p=2}^6 a_p (x /
-/// l)^p.
+/// A blade that a force of 1 N along the circumference bends at its tip:
+/// y = sum_{p=2}^6 a_p (x / l)^p.
 ///
 ///   E I y'''' - Omega^2 ((T y')' + A rho y) = 0,   -E I y'''(l) = 1
 ///   T(x) = A rho int_x^l (R - l + s) ds

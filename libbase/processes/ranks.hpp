@@ -68,8 +68,8 @@ class LostRank : public std::runtime_error {
 };
 
 /// How long to wait between two looks for letters: not at all while letters come, then ever longer,
-/// up to some milliseconds, so that a process that waits needs no processor. A look takes some 30
-/// us.
+/// up to some milliseconds, so that a process that waits needs no processor. A look takes some
+/// 30 us.
 class Patience {
  public:
   /// A letter was there.

@@ -189,8 +189,8 @@ concept HasColumns = requires {
   T::columns();
 };
 
-/// A struct with columns that is a group of a result file: `static constexpr std::string_view
-/// group`, too.
+/// A struct with columns that is a group of a result file:
+/// `static constexpr std::string_view group`, too.
 template <class T>
 concept HasGroup = HasColumns<T> && requires {
   { T::group } -> std::convertible_to<std::string_view>;

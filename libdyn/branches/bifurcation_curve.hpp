@@ -33,8 +33,8 @@ struct FlowPlane {
 ///   g = |mu|^2 - 1        Neimark-Sacker, for the complex pair nearest to the unit circle
 ///   g = depth / clearance grazing, for the extremum of a contact's depth nearest to touching
 ///
-/// With v and w the critical eigenvectors of the tangent T of a period, T v = mu v and w^T T = mu
-/// w^T,
+/// With v and w the critical eigenvectors of the tangent T of a period, T v = mu v and
+/// w^T T = mu w^T,
 ///
 ///   d(mu) = w^T dT v / w^T v
 ///

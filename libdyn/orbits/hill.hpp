@@ -27,14 +27,14 @@ struct HillStability {
 ///
 ///   y(t) = p(t) e^(lambda t),   p periodic:   (A(t) - d/dt) p = lambda p
 ///
-/// is an eigenproblem for the Fourier coefficients of p, whose eigenvalues repeat as lambda + i k
-/// w. The eigenvalues of the smallest size, best resolved by so many harmonics, are found by
-/// Arnoldi's method on the inverse. Each of its vectors costs a solution with the Jacobian of
-/// harmonic balance, whose size is that of the ports, not of the states. A strip of width w across
-/// the imaginary axis holds each exponent once; the strip is laid where no eigenvalue is near its
-/// edges. Blocks of two vectors find exponents that isotropy doubles. Modes faster than seven
-/// tenths of the harmonics have no copy in the strip that the harmonics resolve; exponents of such
-/// modes are those of the mean of A(t), to first order.
+/// is an eigenproblem for the Fourier coefficients of p, whose eigenvalues repeat as
+/// lambda + i k w. The eigenvalues of the smallest size, best resolved by so many harmonics, are
+/// found by Arnoldi's method on the inverse. Each of its vectors costs a solution with the Jacobian
+/// of harmonic balance, whose size is that of the ports, not of the states. A strip of width w
+/// across the imaginary axis holds each exponent once; the strip is laid where no eigenvalue is
+/// near its edges. Blocks of two vectors find exponents that isotropy doubles. Modes faster than
+/// seven tenths of the harmonics have no copy in the strip that the harmonics resolve; exponents of
+/// such modes are those of the mean of A(t), to first order.
 ///
 /// The series of p has the harmonics of the orbit, or more if the modes of the mean of A(t) ask for
 /// that and the cost is low.

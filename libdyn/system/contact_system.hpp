@@ -89,8 +89,8 @@ struct ContactForces {
 ///
 ///   eta'' = sum_l f_l(alpha_l) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j) + sum_i B_i F_i
 ///
-/// M is multiplied out. The state of an integration is (eta, eta'), as its layout() has it; phase =
-/// Omega t. A value: copy it, one per thread.
+/// M is multiplied out. The state of an integration is (eta, eta'), as its layout() has it;
+/// phase = Omega t. A value: copy it, one per thread.
 class ContactSystem {
  public:
   /// @throws ModelError  for contacts at stations without inertia

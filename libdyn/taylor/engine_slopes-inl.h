@@ -139,8 +139,8 @@ HWY_ATTR P Engine<P>::limit_for_slopes(const P& h) {
   return P(std::min(longest, slopes.reach / std::sqrt(std::max(square, 1e-200))));
 }
 
-/// A step to a fixed phase: what changes the speed changes how long it takes,  h' = -h rate' /
-/// rate. Then slopes are those at fixed phase, the time of a state being a number with slopes, too.
+/// A step to a fixed phase: what changes the speed changes how long it takes,
+/// h' = -h rate' / rate. Slopes are then those at fixed phase; the time of a state has slopes, too.
 template <class P>
 HWY_ATTR P Engine<P>::to_fixed_phase(const P& h) const {
   return {h.x, wide(h.x) * slopes_->stretch - slopes_->moved};

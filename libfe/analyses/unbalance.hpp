@@ -45,8 +45,8 @@ class UnbalanceSolver {
   std::unique_ptr<State> state_;
 };
 
-/// The same to one of the loads of other frequencies, of that frequency: u(t) = Re(value e^(i w
-/// t)). Bearings take the coefficients of that frequency.
+/// The same to one of the loads of other frequencies, of that frequency:
+/// u(t) = Re(value e^(i w t)). Bearings take the coefficients of that frequency.
 /// @return  x, y: NaN at speeds where the dynamic stiffness is singular
 UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitation& load,
                                        const std::vector<double>& speeds,

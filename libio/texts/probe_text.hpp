@@ -10,8 +10,8 @@
 
 namespace whirl::inline io {
 
-/// Angle of a probe in degrees, for an axial probe with the axis that it looks along: "90", "90
-/// along z".
+/// Angle of a probe in degrees, for an axial probe with the axis that it looks along: "90",
+/// "90 along z".
 std::string angle_text(const ProbeLabel& probe);
 
 /// A reading [m] in the unit of its probe: "12.3 um".
