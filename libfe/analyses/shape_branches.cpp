@@ -67,7 +67,8 @@ class Follower {
     auto found = solved(at);
     if (!found) return;
     if (!has_begun_) {
-      accept(at, std::move(*found), {std::vector<int>(found->size(), nobody), true});
+      const Match all_begin{std::vector<int>(found->size(), nobody)};
+      accept(at, std::move(*found), all_begin);
       has_begun_ = true;
     } else {
       advance(at, std::move(*found), 0);
