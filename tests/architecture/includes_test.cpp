@@ -171,12 +171,13 @@ const std::vector<std::pair<std::string, std::string>> namespaces{
 TEST(Architecture, ALibraryDeclaresInItsNamespaceOrInOneBelow) {
   std::size_t found = 0;
   for (auto own = namespaces.begin(); own != namespaces.end(); ++own) {
-    for (const auto& [file, line] : lines_in(own->first, std::regex("^namespace whirl.*"))) {
+    for (const auto& place : lines_in(own->first, std::regex("^namespace whirl.*"))) {
+      const std::string& line = place.second;
       ++found;
       const bool is_known = std::any_of(namespaces.begin(), own + 1, [&](const auto& n) {
         return std::regex_search(line, std::regex("^namespace whirl::inline " + n.second + "\\b"));
       });
-      EXPECT_TRUE(is_known) << file << ": " << line;
+      EXPECT_TRUE(is_known) << place.first << ": " << line;
     }
   }
   EXPECT_GT(found, 400u);

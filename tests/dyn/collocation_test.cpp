@@ -67,7 +67,9 @@ std::vector<std::pair<std::string, FreeMotion>> free_motions() {
 // motion, at the end and within steps. In clearances and clearances times Omega.
 TEST(Collocation, IsExactWithoutContact) {
   constexpr double roundings = 1e-13;
-  for (const auto& [name, motion] : free_motions()) {
+  for (const auto& named : free_motions()) {
+    const std::string& name = named.first;
+    const FreeMotion& motion = named.second;
     SCOPED_TRACE(name);
     const Scene scene = motion.p.scene();
     const double period = scene.contacts.period(), c = motion.p.clearance;

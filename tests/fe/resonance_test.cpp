@@ -36,7 +36,8 @@ double hundred(double) {
 TEST(InternalResonance, ComesOutInClosedFormWithoutGyroscopics) {
   const auto found = internal_resonances(diagram(hundred, hundred, 10.0, 800.0, 79), 4);
   std::vector<double> expected;
-  for (const auto& [p, q] : {std::pair{4, 3}, {3, 2}, {2, 1}, {3, 1}, {4, 1}}) {
+  for (const auto& ratios : {std::pair{4, 3}, {3, 2}, {2, 1}, {3, 1}, {4, 1}}) {
+    const int p = ratios.first, q = ratios.second;
     for (const double ratio : {double(p + q) / (p - q), double(p - q) / (p + q)}) {
       const double W = 100.0 * ratio;
       const auto at = std::find_if(found.begin(), found.end(), [&](const InternalResonance& r) {
