@@ -10,6 +10,7 @@
 #include "libdyn/system/scene_at_speed.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
+#include "libio/model/model_table.hpp"
 
 namespace whirl::inline io {
 
@@ -19,7 +20,9 @@ constexpr std::size_t remembered = 4;  ///< scenes; a difference of an equation 
 
 /// Whether a path leaves the rotor and its stations as they are.
 bool is_light(const std::string& path) {
-  return path.starts_with("contact.") || path.starts_with("start.") || path == "operation.speed";
+  const std::vector<ModelTable>& all = model_tables();
+  const auto table = std::ranges::find(all, path.substr(0, path.find('.')), &ModelTable::name);
+  return table != all.end() && !table->is_of_rotor;
 }
 
 bool same_place(const Station& a, const Station& b) {

@@ -13,7 +13,7 @@ Model parse_model(const std::string& text, const std::string& name,
   for (const std::string& set : sets) set_value(root, set);
   ModelBuilder builder(root, files);
   Model model = builder.build();
-  for (const ModelBuilder::Table& table : builder.tables()) {
+  for (const FileTable& table : builder.file_tables()) {
     ConfigNode* owner = root.find(table.owner);
     if (owner->kind == ConfigNode::Kind::array) owner = &owner->items[table.item];
     owner->find(table.key)->text = table.text;

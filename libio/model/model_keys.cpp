@@ -9,6 +9,7 @@
 #include "libbase/error.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
+#include "libio/model/model_table.hpp"
 
 namespace whirl::inline io {
 
@@ -39,69 +40,6 @@ const AskedKey* Key::find(AskedKey::Form form) const {
 }
 
 namespace {
-
-/// An empty table of every kind: what is missing in it is required.
-constexpr const char* bare = R"(
-[operation]
-[material.m]
-[[shaft]]
-[[layer]]
-[[disk]]
-[[unbalance]]
-[[force]]
-[[probe]]
-[bow]
-[[body]]
-[[bearing]]
-[[seal]]
-[[link]]
-[[oil_film]]
-[[contact]]
-[damping]
-rayleigh = {}
-[reduction]
-[start]
-whirl = [{}]
-displaced = [{}]
-)";
-
-/// Values that may be written as tables or lists, and as plain ones.
-constexpr const char* as_tables = R"(
-[[shaft]]
-outer_diameter = [1, 1]
-inner_diameter = [0, 0]
-shear_coefficient = "cowper"
-[[layer]]
-from = {}
-to = {}
-outer_diameter = [1, 1]
-inner_diameter = [0, 0]
-shear_coefficient = "cowper"
-[[disk]]
-unbalance = {}
-[[body]]
-mass = [1, 1]
-[damping]
-modal = [0.1]
-[[link]]
-from = {}
-to = {}
-)";
-constexpr const char* as_values = R"(
-[[shaft]]
-outer_diameter = 1
-inner_diameter = 0
-shear_coefficient = 1
-[[layer]]
-from = 0
-to = 1
-outer_diameter = 1
-inner_diameter = 0
-shear_coefficient = 1
-[[link]]
-from = ""
-to = ""
-)";
 
 /// Elements of arrays are "[]", tables of any name "*".
 std::string general(const std::string& path) {
@@ -141,6 +79,15 @@ Requirements missing_in(const std::vector<AskedKey>& asked, const std::string& t
   return found;
 }
 
+/// Every table, with some keys of its own each.
+std::string specimen(std::string_view ModelTable::*keys) {
+  std::string text;
+  for (const ModelTable& table : model_tables()) {
+    text += fmt::format("{}\n{}", table.header(), table.*keys);
+  }
+  return text;
+}
+
 void insert(Key& root, const std::vector<AskedKey>& asked) {
   for (const AskedKey& a : asked) {
     Key& key = root.at(a.path);
@@ -154,39 +101,38 @@ std::vector<std::string> names_of(const std::vector<Key::Entry>& entries) {
   return names;
 }
 
-/// A key on whose value it depends what else its table holds.
-struct Switch {
-  const char *table, *key;
-  const char* header;     ///< how the table is opened
-  const char* otherwise;  ///< value if it is left out; empty: other keys tell it
-};
-constexpr Switch switches[] = {{"bearing.[]", "kind", "[[bearing]]", ""},
-                               {"seal.[]", "kind", "[[seal]]", ""},
-                               {"contact.[]", "law", "[[contact]]", "radial"},
-                               {"contact.[]", "geometry", "[[contact]]", "ring"},
-                               {"oil_film.[]", "law", "[[oil_film]]", "short"},
-                               {"start", "from", "[start]", "static"}};
+/// A key in whose presence others are needed.
+void add_presence(Key& root, const ModelTable& of, const std::string& key) {
+  const auto asked = asked_in(of.header() + "\n" + key + " = \"\"\n");
+  insert(root, asked);
+  Condition condition{.key = key, .required = missing_in(asked, of.path())};
+  Key& table = root.at(of.path());
+  for (const auto& always : table.required) condition.required.erase(always);
+  table.conditions.push_back(condition);
+}
 
-void add_switch(Key& root, const Switch& s) {
-  Key& table = root.at(s.table);
-  const AskedKey* choice = table.entry(s.key).find(AskedKey::Form::choice);
-  const std::vector<std::string> values = choice ? choice->names : std::vector<std::string>{};
+void add_switch(Key& root, const ModelTable& of, const KeySwitch& s) {
+  const std::string key(s.key);
+  Key& table = root.at(of.path());
+  const AskedKey* choice = table.entry(key).find(AskedKey::Form::choice);
+  if (!choice) return add_presence(root, of, key);
+  const std::vector<std::string> values = choice->names;
   std::vector<std::vector<std::string>> known;
   std::set<std::string> known_to_some;  // others depend on another switch
   std::vector<Condition> conditions;
   for (const std::string& value : values) {
-    const auto asked = asked_in(fmt::format("{}\n{} = \"{}\"\n", s.header, s.key, value));
+    const auto asked = asked_in(fmt::format("{}\n{} = \"{}\"\n", of.header(), key, value));
     insert(root, asked);
     Key alone;
     insert(alone, asked);
-    known.push_back(names_of(alone.at(s.table).entries));
+    known.push_back(names_of(alone.at(of.path()).entries));
     known_to_some.insert(known.back().begin(), known.back().end());
-    conditions.push_back({s.key, value, value == s.otherwise, missing_in(asked, s.table), {}});
+    conditions.push_back({key, value, value == s.otherwise, missing_in(asked, of.path()), {}});
   }
   // what all values need is needed anyway, and what the key itself would do for
   Requirements met_by_key;
   for (const auto& one_of : table.required) {
-    if (std::find(one_of.begin(), one_of.end(), s.key) != one_of.end()) met_by_key.insert(one_of);
+    if (std::find(one_of.begin(), one_of.end(), key) != one_of.end()) met_by_key.insert(one_of);
   }
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     Requirements common = met_by_key;
@@ -217,8 +163,8 @@ void add_switch(Key& root, const Switch& s) {
 Key model_keys() {
   Key root;
   std::set<std::string> tables;  // whose requirements are known
-  for (const char* specimen : {bare, as_tables, as_values}) {
-    const auto asked = asked_in(specimen);
+  for (const auto keys : {&ModelTable::bare, &ModelTable::as_tables, &ModelTable::as_values}) {
+    const auto asked = asked_in(specimen(keys));
     insert(root, asked);
     std::set<std::string> here;
     for (const AskedKey& a : asked) {
@@ -229,15 +175,9 @@ Key model_keys() {
     }
     tables.merge(here);
   }
-  for (const Switch& s : switches) add_switch(root, s);
-
-  // a disk by its shape needs all of it
-  const auto asked = asked_in("[[disk]]\nmaterial = \"\"\n");
-  insert(root, asked);
-  Condition by_shape{.key = "material", .required = missing_in(asked, "disk.[]")};
-  Key& disk = root.at("disk.[]");
-  for (const auto& always : disk.required) by_shape.required.erase(always);
-  disk.conditions.push_back(by_shape);
+  for (const ModelTable& table : model_tables()) {
+    for (const KeySwitch& s : table.switches) add_switch(root, table, s);
+  }
   return root;
 }
 

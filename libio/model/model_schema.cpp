@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 
 #include "libio/model/model_keys.hpp"
+#include "libio/model/model_table.hpp"
 
 namespace whirl::inline io {
 
@@ -13,53 +15,12 @@ namespace {
 
 // ---- words ----
 
-struct Note {
-  std::string_view path;  ///< of the key, or its last part
-  std::string_view meaning;
-  std::string_view otherwise = "";
-};
-
-/// Meanings of keys that are not read as fields of a struct.
-constexpr Note notes[] = {
+/// Meanings of keys at the top, and of those that mean the same in every table that has them.
+constexpr KeyNote common_notes[] = {
     {"format", "format of the file"},
     {"title", "text for tables and pictures"},
     {"gravity", "acceleration along -y; left out: none", "0"},
-    {"operation", "how the rotor is run"},
-    {"operation.speed", "spin about +z"},
-    {"material", "[material.NAME]: isotropic, linear elastic materials"},
     {"material.*", "a material; segments, layers and disks name it"},
-    {"shaft", "segments of the shaft, one after another from z = 0"},
-    {"layer", "sleeves, hubs and tubes that go with the shaft, beside its segments"},
-    {"probe", "displacement probes, along which responses and motions are told"},
-    {"bow", "how the shaft is bent without forces; it turns with the shaft"},
-    {"bow.table", "file with deflections against position, beside the model"},
-    {"disk", "rigid disks on the shaft, by their shape or by their mass"},
-    {"unbalance", "masses off the axis"},
-    {"force",
-     "forces that do not follow from the motion: constant, of an order of the speed, or of a "
-     "frequency of their own"},
-    {"body", "lumped masses: stators, pedestals, the mass of a Jeffcott rotor"},
-    {"bearing", "linear bearings, from a station to the ground or to a body"},
-    {"seal", "seals with linear coefficients, likewise"},
-    {"link", "linear springs and dampers between two stations"},
-    {"oil_film", "plain journal bearings with nonlinear oil films"},
-    {"contact", "where the rotor may touch a stator"},
-    {"damping", "damping of the whole rotor"},
-    {"damping.rayleigh", "adds mass M + stiffness K to C"},
-    {"damping.modal", "damping ratios of the modes at rest: one for all, or a list"},
-    {"shaft.[].rayleigh", "adds mass M + stiffness K of this segment to C"},
-    {"layer.[].rayleigh", "adds mass M + stiffness K of this layer to C"},
-    {"reduction", "how many shapes a simulation computes with"},
-    {"start", "start of a simulation"},
-    {"start.from",
-     "rest: in the bearings' centers; static: sag under gravity; file: the end of a result",
-     "\"static\""},
-    {"start.file", "result whose end is the start; beside the model"},
-    {"start.whirl", "complex modes at speed that are added"},
-    {"start.whirl.[].mode", "number that whirl modes gives it"},
-    {"start.whirl.[].amplitude", "largest lateral radius"},
-    {"start.displaced", "places that are moved aside or thrown"},
-    {"start.displaced.[].body", "name of a body that is moved"},
     {"x", "moved aside along x", "0"},
     {"y", "moved aside along y", "0"},
     {"vx", "thrown along x", "0"},
@@ -68,34 +29,11 @@ constexpr Note notes[] = {
     {"at", "position along the shaft, from its left end; the mesh gets a node there"},
     {"node", "node number from 1, for meshes with given elements"},
     {"body", "name of a [[body]]"},
-    {"material.name", "name of a [material.NAME]"},
-    {"shaft.[].material", "name of a [material.NAME]"},
-    {"disk.[].material", "name of a [material.NAME], of a disk that is given by its shape"},
-    {"shaft.[].table", "file with segments and layers row by row (CSV), beside the model"},
-    {"layer.[].material", "name of a [material.NAME]"},
-    {"layer.[].from", "where it begins: a position, or a table with at or node"},
-    {"layer.[].to", "where it ends, to the right of from"},
-    {"layer.[].outer_diameter", "one value, or [left, right] of a cone"},
-    {"layer.[].inner_diameter", "one value, or [left, right]; 0: solid"},
-    {"layer.[].shear_coefficient", "formula of the shear coefficient, or a number", "\"cowper\""},
-    {"shaft.[].outer_diameter", "one value, or [left, right] of a cone"},
-    {"shaft.[].inner_diameter", "one value, or [left, right] of a cone; left out: solid", "0"},
-    {"shaft.[].shear_coefficient", "formula of the shear coefficient, or a number", "\"cowper\""},
-    {"disk.[].unbalance", "offset or moment, and phase"},
     {"moment", "mass times eccentricity"},
     {"offset", "eccentricity: of the disk's or the body's mass"},
     {"phase", "angle from +x at t = 0", "0"},
-    {"force.[].force", "its size"},
-    {"force.[].moment", "its size, of a moment about an axis across the shaft"},
-    {"force.[].base_acceleration", "of the ground; motions are relative to it"},
-    {"force.[].order", "its frequency over that of the speed"},
-    {"force.[].frequency", "of its own, as of a shaker; neither this nor order: constant"},
-    {"force.[].angle", "direction of force, axis or acceleration, from +x", "0"},
-    {"force.[].whirl", "it turns with the spin or against it; left out: along a direction"},
-    {"force.[].phase", "size cos(w t + phase); of one that whirls where it points at t = 0", "0"},
     {"to", "\"ground\", or the name of a body", "\"ground\""},
     {"from", "name of a body, \"ground\", or a table with a station"},
-    {"link.[].to", "name of a body, \"ground\", or a table with a station"},
     {"against", "\"ground\", or the name of a body", "\"ground\""},
     {"xx", "force along x by a motion along x"},
     {"yy", "force along y by a motion along y"},
@@ -103,24 +41,28 @@ constexpr Note notes[] = {
     {"yx", "force along y by a motion along x", "0"},
     {"rigid", "pins x and y", "false"},
     {"clamped", "pins x, y and the tilts", "false"},
-    {"bearing.[].kind", "how its coefficients are given; left out: told by the other keys"},
-    {"seal.[].kind", "how its coefficients are given; left out: told by the other keys"},
-    {"contact.[].law", "law of the normal force", "\"radial\""},
-    {"contact.[].geometry", "what touches what, of a law that leaves it open", "\"ring\""},
-    {"contact.[].offset", "[x, y] of the center of the clearance circle", "[0, 0]"},
-    {"oil_film.[].law", "theory of the film", "\"short\""},
-    {"oil_film.[].offset", "[x, y] of the bearing's center", "[0, 0]"},
-    {"oil_film.[].linearize", "linear verbs take its coefficients; false: they leave it out",
-     "true"},
 };
 
-const Note* note_of(const std::string& path) {
-  const Note* found = nullptr;
-  for (const Note& note : notes) {
-    if (note.path == path) return &note;
-    if (note.path == last_part(path)) found = &note;
+/// What tables say of themselves and their keys, by paths.
+std::map<std::string, KeyNote> notes_of_tables() {
+  std::map<std::string, KeyNote> notes;
+  for (const ModelTable& table : model_tables()) {
+    notes[std::string(table.name)] = {table.name, table.meaning};
+    for (const KeyNote& note : table.notes) {
+      notes[table.path() + "." + std::string(note.key)] = note;
+    }
   }
-  return found;
+  return notes;
+}
+
+const KeyNote* note_of(const std::string& path) {
+  static const std::map<std::string, KeyNote> of_tables = notes_of_tables();
+  if (const auto found = of_tables.find(path); found != of_tables.end()) return &found->second;
+  const auto is_it = [&](const KeyNote& note) {
+    return note.key == path || note.key == last_part(path);
+  };
+  const auto found = std::ranges::find_if(common_notes, is_it);
+  return found == std::end(common_notes) ? nullptr : &*found;
 }
 
 /// A plain value as it is written in TOML.
@@ -261,7 +203,7 @@ class SchemaWriter {
   /// With the meaning of the key, and what holds if it is left out.
   static Record described(Record schema, const Key& key, const std::string& path) {
     const AskedKey* field = key.find(AskedKey::Form::field);
-    const Note* note = field ? nullptr : note_of(path);
+    const KeyNote* note = field ? nullptr : note_of(path);
     std::string meaning(field ? field->meaning : note ? note->meaning : "");
     const std::string_view otherwise = field ? field->otherwise : note ? note->otherwise : "";
     const AskedKey* q = key.find(AskedKey::Form::quantity);

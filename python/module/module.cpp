@@ -6,6 +6,7 @@
 #include "libio/import/import_file.hpp"
 #include "libio/model/file_text.hpp"
 #include "libio/model/model_schema.hpp"
+#include "libio/model/model_table.hpp"
 #include "libverbs/command/version.hpp"
 #include "python/module/call.hpp"
 #include "python/module/errors.hpp"
@@ -59,6 +60,13 @@ PYBIND11_MODULE(_whirl, module) {
       .def("figure", &Drawn::figure, py::arg("kind"), py::arg("variant"));
 
   module.def("model_schema", [] { return model_schema().json(); });
+  module.def("model_tables", [] {  // names, and whether there is one, several, or one of each name
+    py::list tables;
+    for (const ModelTable& table : model_tables()) {
+      tables.append(py::make_tuple(table.name, name_of(table.form)));
+    }
+    return tables;
+  });
   module.def("file_text", [](const std::string& path) { return file_text(path); });
   module.def("import_file", [](const std::string& file, const std::string& place) {
     const Imported made = import_file(file, place, Replaces::own_pictures);

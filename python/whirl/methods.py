@@ -8,14 +8,10 @@ from __future__ import annotations
 
 from typing import Any, Callable
 
+from . import _whirl
 from .verbs import RESULT_VERBS, VERBS, method_of, python_name
 
-TABLES = {
-    **dict.fromkeys(["operation", "bow", "damping", "reduction", "start"], "one"),
-    **dict.fromkeys(["shaft", "layer", "disk", "unbalance", "force", "probe", "body", "bearing", "seal", "link",
-                     "oil_film", "contact"], "several"),
-    "material": "named",
-}
+TABLES = dict(sorted(_whirl.model_tables(), key=lambda table: ("one", "several", "named").index(table[1])))
 """Tables of model files: whether there is one, or several; of materials one of each name."""
 
 

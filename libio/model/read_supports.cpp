@@ -1,3 +1,5 @@
+#include "libio/model/read_supports.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -5,7 +7,6 @@
 
 #include "libbase/structs/family.hpp"
 #include "libio/model/bearing_table.hpp"
-#include "libio/model/model_builder.hpp"
 
 namespace whirl::inline io {
 
@@ -96,22 +97,21 @@ void check_kind(TableReader& table, const ToldKind& told, bool is_rigid, bool ha
   }
 }
 
-}  // namespace
-
-std::optional<CoefficientTable> ModelBuilder::coefficient_table(TableReader& table,
-                                                                std::string_view key) {
-  const auto from = table_text(table, key, "", 0);  // who owns it, its reader knows
+std::optional<CoefficientTable> coefficient_table(ModelReading& reading, TableReader& table,
+                                                  std::string_view key) {
+  const auto from = reading.text_of(table, key, "", 0);  // who owns it, its reader knows
   if (!from) return std::nullopt;
   std::vector<Problem> wrong;
-  const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong, &doubts_);
-  problems_.insert(problems_.end(), wrong.begin(), wrong.end());
+  const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong, &reading.doubts);
+  reading.problems.insert(reading.problems.end(), wrong.begin(), wrong.end());
   return read;
 }
 
-/// Reads the keys of a kind; whether any is there.
-bool ModelBuilder::read_kind(TableReader& table, AnyBearing& to) {
+}  // namespace
+
+bool read_coefficients(ModelReading& reading, TableReader& table, AnyBearing& to) {
   const auto read_table = [&](const auto& field, CoefficientTable& member) {
-    if (auto read = coefficient_table(table, field.name)) member = std::move(*read);
+    if (auto read = coefficient_table(reading, table, field.name)) member = std::move(*read);
     if (field.is_required && !table.has(field.name)) {
       table.missing(field.name, "a file with coefficients against speed (CSV)");
     }
@@ -120,25 +120,24 @@ bool ModelBuilder::read_kind(TableReader& table, AnyBearing& to) {
   return has_any(table, keys_of_kind(to));
 }
 
-/// Reads bearings or seals.
-void ModelBuilder::read_supports(const char* array, std::vector<Connection>& to) {
-  for_each(array, [&](TableReader& table, std::size_t i) {
+void read_supports(ModelReading& reading, const char* array, std::vector<Connection>& to) {
+  reading.for_each(array, [&](TableReader& table, std::size_t i) {
     Connection c;
     c.where = table.where();
     c.name = table.string("name").value_or(fmt::format("{} {}", array, i + 1));
-    if (const auto at = station(table)) c.from = *at;
+    if (const auto at = reading.station(table)) c.from = *at;
     if (const auto body = table.string("to")) {
-      if (const auto s = named_station(*body, table, "to")) c.to = *s;
+      if (const auto s = reading.named_station(*body, table, "to")) c.to = *s;
     }
     table.read(c);
     const ToldKind told = kind_of(table);
     c.coefficients = told.bearing;
-    const std::size_t known_tables = tables_.size();
-    const bool has_values = read_kind(table, c.coefficients);
+    const std::size_t known_tables = reading.file_tables.size();
+    const bool has_values = read_coefficients(reading, table, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
     const bool is_by_file = !told.key.empty() && told.key != "kind";
-    if (AnyBearing coefficients; is_by_file && read_kind(table, coefficients)) {
+    if (AnyBearing coefficients; is_by_file && read_coefficients(reading, table, coefficients)) {
       table.problem(told.key,
                     fmt::format("found a {} and coefficients, expected one of them", told.key));
     }
@@ -146,43 +145,11 @@ void ModelBuilder::read_supports(const char* array, std::vector<Connection>& to)
       check_kind(table, told, c.is_rigid, has_values);
       report_left_over(table, told);
     }
-    for (std::size_t k = known_tables; k < tables_.size(); ++k) {
-      tables_[k].owner = array;
-      tables_[k].item = i;
+    for (std::size_t k = known_tables; k < reading.file_tables.size(); ++k) {
+      reading.file_tables[k].owner = array;
+      reading.file_tables[k].item = i;
     }
     to.push_back(c);
-  });
-}
-
-void ModelBuilder::read_links() {
-  for_each("link", [&](TableReader& table, std::size_t i) {
-    Connection c;
-    c.where = table.where();
-    c.name = table.string("name").value_or(fmt::format("link {}", i + 1));
-    for (const auto& [key, end] : {std::pair("from", &c.from), std::pair("to", &c.to)}) {
-      const ConfigNode* node = table.node(key);
-      if (!node) {
-        table.missing(key, "a body's name, \"ground\", { at = position } or { node = number }");
-      } else if (node->kind == ConfigNode::Kind::table) {
-        TableReader inner(node, table.path(key), problems_, asked_);
-        if (const auto s = station(inner)) *end = *s;
-        inner.finish();
-      } else if (const auto name = table.string(key)) {
-        if (const auto s = named_station(*name, table, key)) *end = *s;
-      }
-    }
-    const bool has_values = read_kind(table, c.coefficients);
-    c.is_clamped = table.boolean("clamped").value_or(false);
-    c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
-    if (!has_values && !c.is_rigid) {
-      table.missing(
-          "stiffness", "a stiffness (N/m), damping, rigid = true or clamped = true",
-          {"damping", "tilt_stiffness", "tilt_damping", "added_mass", "rigid", "clamped"});
-    }
-    if (has_values && c.is_rigid) {
-      table.problem("rigid", "a rigid link has no stiffness or damping of its own; leave them out");
-    }
-    model_.structure.links.push_back(c);
   });
 }
 

@@ -1,29 +1,25 @@
 #include <fmt/format.h>
 
-#include "libio/model/model_builder.hpp"
+#include "libio/model/model_reading.hpp"
+#include "libio/model/model_table.hpp"
 #include "libio/model/read_member.hpp"
+#include "libio/model/read_parts.hpp"
 #include "libio/text/nearest.hpp"
 
 namespace whirl::inline io {
 
-/// The key `offset`, [x, y] of a circle's center [m].
-Vec2 ModelBuilder::center(TableReader& table) {
-  const auto offset = table.pair("offset", "m", Range::any, "[x, y]");
-  return offset ? Vec2(offset->front(), offset->back()) : Vec2(Vec2::Zero());
-}
+namespace {
 
-void ModelBuilder::read_films() {
-  for_each("oil_film", [&](TableReader& table, std::size_t i) {
+void read_films(ModelReading& reading) {
+  reading.for_each("oil_film", [&](TableReader& table, std::size_t i) {
     OilFilm film;
     film.where = table.where();
     film.name = table.string("name").value_or(fmt::format("oil film {}", i + 1));
     const auto spins = [&](const Station& s) {
-      for (const Body& body : model_.structure.bodies) {
-        if (s.kind == Station::Kind::body && body.name == s.body) return body.spins;
-      }
+      if (const Body* body = reading.body_at(s)) return body->spins;
       return s.kind == Station::Kind::position || s.kind == Station::Kind::node;
     };
-    const auto at = station(table);
+    const auto at = reading.station(table);
     read_member(table, "law", film.law);
     if (at) {
       film.at = *at;
@@ -32,7 +28,7 @@ void ModelBuilder::read_films() {
       }
     }
     if (const auto against = table.string("against")) {
-      if (const auto s = named_station(*against, table, "against")) {
+      if (const auto s = reading.named_station(*against, table, "against")) {
         film.against = *s;
         if (at && at->kind == Station::Kind::body && at->body == *against) {
           table.problem("against", "the body would be its own bearing");
@@ -42,19 +38,40 @@ void ModelBuilder::read_films() {
       }
     }
     table.read(film.bearing);
-    film.offset = center(table);
+    film.offset = read_center(table);
     film.is_linearized = table.boolean("linearize").value_or(true);
     if (const double k = spring_of(film.law); at && k > 0.0) {
-      model_.structure.bearings.push_back(
+      reading.model.structure.bearings.push_back(
           {.name = film.name + " spring",
            .from = film.at,
            .to = film.against,
            .coefficients = constant_bearing({.K = k * Mat2::Identity()}),
            .where = film.where});
     }
-    if (at) model_.structure.stations.push_back(*at);
-    model_.films.push_back(film);
+    if (at) reading.model.structure.stations.push_back(*at);
+    reading.model.films.push_back(film);
   });
+}
+
+}  // namespace
+
+ModelTable oil_film_table() {
+  return {.name = "oil_film",
+          .meaning = "plain journal bearings with nonlinear oil films",
+          .read = read_films,
+          .turn = ModelTable::Turn::late,
+          .example =
+              "body = \"b\"\n"
+              "radius = 1\n"
+              "length = 1\n"
+              "clearance = 1\n"
+              "viscosity = 1\n"
+              "law = \"squeeze\"\n",
+          .switches = {{"law", "short"}},
+          .notes = {{"law", "theory of the film", "\"short\""},
+                    {"offset", "[x, y] of the bearing's center", "[0, 0]"},
+                    {"linearize", "linear verbs take its coefficients; false: they leave it out",
+                     "true"}}};
 }
 
 }  // namespace whirl::inline io

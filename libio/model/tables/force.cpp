@@ -2,7 +2,9 @@
 
 #include <utility>
 
-#include "libio/model/model_builder.hpp"
+#include "libio/model/model_reading.hpp"
+#include "libio/model/model_table.hpp"
+#include "libio/model/read_parts.hpp"
 
 namespace whirl::inline io {
 
@@ -67,17 +69,15 @@ void read_force_frequency(TableReader& table, Force& to) {
   to.turning = turning.value_or(Turning::no);
 }
 
-}  // namespace
-
-void ModelBuilder::read_forces() {
-  for_each("force", [&](TableReader& table, std::size_t i) {
+void read_forces(ModelReading& reading) {
+  reading.for_each("force", [&](TableReader& table, std::size_t i) {
     Force force{.name = table.string("name").value_or(fmt::format("force {}", i + 1))};
     const bool has_size = read_force_size(table, force);
     read_force_frequency(table, force);
     const bool is_of_base = table.has("base_acceleration");
     std::optional<Station> at;
     if (!is_of_base) {
-      at = station(table, {"base_acceleration"});
+      at = reading.station(table, {"base_acceleration"});
     } else {
       for (const char* key : {"at", "node", "body"}) {
         if (table.node(key)) {
@@ -85,10 +85,32 @@ void ModelBuilder::read_forces() {
         }
       }
     }
-    if (at && force.kind == ForceKind::moment) need_tilts(table, "moment", *at);
+    if (at && force.kind == ForceKind::moment) need_tilts(reading, table, "moment", *at);
     if (at) force.at = *at;
-    if (has_size && (at || is_of_base)) model_.structure.forces.push_back(std::move(force));
+    if (has_size && (at || is_of_base)) reading.model.structure.forces.push_back(std::move(force));
   });
+}
+
+}  // namespace
+
+ModelTable force_table() {
+  return {.name = "force",
+          .meaning =
+              "forces that do not follow from the motion: constant, of an order of the speed, or "
+              "of a frequency of their own",
+          .read = read_forces,
+          .example =
+              "body = \"b\"\n"
+              "force = 1\n",
+          .notes = {{"force", "its size"},
+                    {"moment", "its size, of a moment about an axis across the shaft"},
+                    {"base_acceleration", "of the ground; motions are relative to it"},
+                    {"order", "its frequency over that of the speed"},
+                    {"frequency", "of its own, as of a shaker; neither this nor order: constant"},
+                    {"angle", "direction of force, axis or acceleration, from +x", "0"},
+                    {"whirl", "it turns with the spin or against it; left out: along a direction"},
+                    {"phase", "size cos(w t + phase); of one that whirls where it points at t = 0",
+                     "0"}}};
 }
 
 }  // namespace whirl::inline io

@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "libio/model/model_builder.hpp"
+#include "libio/model/model_reading.hpp"
+#include "libio/model/model_table.hpp"
 #include "libio/model/read_member.hpp"
+#include "libio/model/read_parts.hpp"
 #include "libio/text/nearest.hpp"
-#include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
@@ -67,17 +68,15 @@ void check_geometry(const Contact& contact, TableReader& table) {
   }
 }
 
-}  // namespace
-
-void ModelBuilder::read_contacts() {
-  for_each("contact", [&](TableReader& table, std::size_t i) {
+void read_contacts(ModelReading& reading) {
+  reading.for_each("contact", [&](TableReader& table, std::size_t i) {
     Contact contact;
     contact.where = table.where();
     contact.name = table.string("name").value_or(fmt::format("contact {}", i + 1));
-    const auto at = station(table);
+    const auto at = reading.station(table);
     if (at) contact.at = *at;
     if (const auto against = table.string("against")) {
-      if (const auto s = named_station(*against, table, "against")) contact.against = *s;
+      if (const auto s = reading.named_station(*against, table, "against")) contact.against = *s;
       if (at && at->kind == Station::Kind::body && at->body == *against) {
         table.problem("against", "the body would touch itself");
       }
@@ -88,27 +87,41 @@ void ModelBuilder::read_contacts() {
     if (read_member(table, "geometry", contact.geometry)) {
       refuse_others(table, "geometry", contact.geometry);
     }
-    contact.offset = center(table);
+    contact.offset = read_center(table);
     check_geometry(contact, table);
     const AnyGeometry geometry = geometry_of(contact);
     const auto rim = rim_radius_of(geometry);
     if (rim) contact.friction.radius = *rim;
-    if (at && at->kind == Station::Kind::body && closing_of(geometry) == Closing::tilts) {
-      const auto& bodies = model_.structure.bodies;
-      const auto body = std::find_if(bodies.begin(), bodies.end(),
-                                     [&](const Body& b) { return b.name == at->body; });
-      if (body != bodies.end() && !body->tilts) {
-        table.problem("body", fmt::format("a {} touches as it tilts, but {} does not: give it "
-                                          "tilts = true",
-                                          name_of(geometry), in_quotes(at->body)));
-      }
+    const Body* body = at ? reading.body_at(*at) : nullptr;
+    if (body && !body->tilts && closing_of(geometry) == Closing::tilts) {
+      table.problem("body",
+                    fmt::format("a {} touches as it tilts, but {} does not: give it tilts = true",
+                                name_of(geometry), in_quotes(at->body)));
     }
     if (!table.has("radius") && !rim) {
-      missing_radii_.push_back({model_.contacts.size(), table.where(), table.path("radius")});
+      reading.missing_radii.push_back(
+          {reading.model.contacts.size(), table.where(), table.path("radius")});
     }
-    if (at) model_.structure.stations.push_back(*at);
-    model_.contacts.push_back(contact);
+    if (at) reading.model.structure.stations.push_back(*at);
+    reading.model.contacts.push_back(contact);
   });
+}
+
+}  // namespace
+
+ModelTable contact_table() {
+  return {.name = "contact",
+          .meaning = "where the rotor may touch a stator",
+          .read = read_contacts,
+          .is_of_rotor = false,
+          .example =
+              "body = \"b\"\n"
+              "clearance = 1\n"
+              "stiffness = 1\n",
+          .switches = {{"law", "radial"}, {"geometry", "ring"}},
+          .notes = {{"law", "law of the normal force", "\"radial\""},
+                    {"geometry", "what touches what, of a law that leaves it open", "\"ring\""},
+                    {"offset", "[x, y] of the center of the clearance circle", "[0, 0]"}}};
 }
 
 }  // namespace whirl::inline io

@@ -1,0 +1,127 @@
+#include "libio/model/model_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfe/assembly/assemble.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// Whether anything has a mass.
+bool has_any_mass(const Structure& s) {
+  const auto any = [](const auto& parts, auto mass) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const auto& part) { return mass(part) > 0.0; });
+  };
+  const auto of_layer = [](const Layer& layer) {
+    return layer.carries == Carries::stiffness ? 0.0 : layer.material.rho;
+  };
+  return any(s.shaft, [](const Segment& segment) { return segment.material.rho; }) ||
+         any(s.layers, of_layer) || any(s.disks, [](const Disk& disk) { return disk.m; }) ||
+         any(s.bodies, [](const Body& body) { return std::max(body.m.x, body.m.y); });
+}
+
+void check_stations(ModelReading& reading, const Mesh& mesh) {
+  const Structure& s = reading.model.structure;
+  for (const Station* station : all_stations(s)) {
+    try {
+      resolve(*station, s, mesh);
+    } catch (const ModelError& error) {
+      reading.problems.insert(reading.problems.end(), error.problems().begin(),
+                              error.problems().end());
+    }
+  }
+  for (const auto& d : reading.double_stations) {
+    if (d.node > mesh.nodes()) {
+      reading.problems.push_back(
+          {d.position.where, d.position.key,
+           fmt::format("found node {}, expected a node from 1 to {}", d.node, mesh.nodes())});
+    } else if (resolve(d.position, s, mesh).index != d.node - 1) {
+      reading.problems.push_back(
+          {d.position.where, d.position.key,
+           fmt::format("{:g} mm and node {}, which is at {:g} mm, are different places; give one",
+                       1e3 * d.position.z, d.node,
+                       1e3 * mesh.z[static_cast<std::size_t>(d.node - 1)])});
+    }
+  }
+}
+
+/// Gives contacts without a radius that of the shaft at their station.
+void set_radii(ModelReading& reading, const Mesh& mesh) {
+  const Structure& s = reading.model.structure;
+  for (const auto& m : reading.missing_radii) {
+    Contact& contact = reading.model.contacts[m.contact];
+    const Point point = resolve(contact.at, s, mesh);
+    if (point.kind != Point::Kind::node) {
+      if (contact.friction.mu == 0.0 || contact.friction.slip != Slip::actual) continue;
+      reading.problems.push_back({m.where, m.key,
+                                  "missing, expected a length (m): friction on a body needs the "
+                                  "radius of the contact for its slip velocity"});
+      continue;
+    }
+    contact.friction.radius =
+        0.5 * shaft_diameter(s, mesh, mesh.z[static_cast<std::size_t>(point.index)]);
+  }
+}
+
+void check_movable(ModelReading& reading) {
+  const Structure& s = reading.model.structure;
+  try {
+    const System movable = Assembler{s}.uncondensed(0.0);
+    if (movable.M.norm() == 0.0) {
+      throw ModelError({}, "", "all that has a mass is held: nothing that can move has one");
+    }
+  } catch (const ModelError& error) {
+    // these speak of a bearing, seal or link by its name; here its path is known
+    for (Problem problem : error.problems()) {
+      for (const auto& [kind, list] : s.connections()) {
+        for (const Connection& c : list) {
+          if (problem.where == c.where && problem.key == c.name)
+            problem.key = fmt::format("{}.{}", kind, c.name);
+        }
+      }
+      if (problem.where.file.empty()) problem.where = reading.root.where;
+      reading.problems.push_back(problem);
+    }
+  }
+}
+
+}  // namespace
+
+void check_places(ModelReading& reading) {
+  const Structure& s = reading.model.structure;
+  if (reading.root.find("shaft") && s.shaft.empty())
+    return;  // it is no array of tables; that is said
+  if (s.shaft.empty() && s.bodies.empty() && reading.problems.empty()) {
+    reading.problems.push_back(
+        {reading.root.where, "shaft", "missing: a model needs a [[shaft]] or a [[body]]"});
+  }
+  const bool has_shape = std::all_of(s.shaft.begin(), s.shaft.end(), [](const Segment& segment) {
+    return segment.length > 0.0 && segment.left.outer > 0.0 && segment.right.outer > 0.0;
+  });
+  if (!has_shape) return;
+  Mesh mesh;
+  try {
+    mesh = make_mesh(s);
+  } catch (const ModelError& error) {
+    reading.problems.insert(reading.problems.end(), error.problems().begin(),
+                            error.problems().end());
+    return;
+  }
+  check_stations(reading, mesh);
+  if (!reading.problems.empty()) return;
+  if (!has_any_mass(s)) {
+    reading.problems.push_back({reading.root.where, "",
+                                "nothing in this model has a mass: give a material its density, "
+                                "or add a disk or a body that has one"});
+    return;
+  }
+  set_radii(reading, mesh);
+  check_movable(reading);
+}
+
+}  // namespace whirl::inline io

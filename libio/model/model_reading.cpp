@@ -1,0 +1,128 @@
+#include "libio/model/model_reading.hpp"
+
+#include <fmt/format.h>
+
+#include "libio/text/encoding.hpp"
+#include "libio/text/file_bytes.hpp"
+#include "libio/text/nearest.hpp"
+
+namespace whirl::inline io {
+
+/// Results keep the text, so that they can be run again: it may stand at the key itself.
+std::optional<ModelReading::NamedText> ModelReading::text_of(TableReader& table,
+                                                             std::string_view key,
+                                                             const char* owner, std::size_t item) {
+  const auto name = table.string(key);
+  if (!name) return std::nullopt;
+  const Where at = table.where(key);
+  const std::string line = at.line > 0 ? fmt::format(":{}", at.line) : "";
+  NamedText result{
+      at.file.empty() ? table.path(key) : fmt::format("{}{}: {}", at.file, line, table.path(key)),
+      *name};
+  if (name->find('\n') == std::string::npos) {
+    if (!(at.set.empty() ? files.of_text : files.of_sets)) {
+      table.problem(key, fmt::format("found {}, expected the lines of the table: a model that is "
+                                     "stored has its tables in it, and no file is opened for it",
+                                     in_quotes(*name)));
+      return std::nullopt;
+    }
+    const std::filesystem::path path = files.folder / *name;
+    auto content = file_bytes(path, FileKind::regular, most_text_bytes);
+    if (content) content = in_utf8(std::move(*content.value));
+    if (!content) {
+      table.problem(
+          key, fmt::format("cannot read the file \"{}\"{}", path.string(),
+                           content.problem.starts_with("cannot") ? "" : ": " + content.problem));
+      return std::nullopt;
+    }
+    result = {path.string(), *content};
+  }
+  file_tables.push_back({owner, item, std::string(key), result.text});
+  return result;
+}
+
+std::optional<Station> ModelReading::station(TableReader& table,
+                                             const std::vector<std::string>& instead) {
+  const bool has_at = table.has("at"), has_node = table.has("node"), has_body = table.has("body");
+  Station s{.where = table.where(), .key = table.path("at")};
+  const auto at = table.quantity("at", "m", Range::any);
+  const auto node = table.integer("node", Range::positive);
+  const auto body = table.string("body");
+  if (!has_at && !has_node && !has_body) {
+    std::vector<std::string> others{"node", "body"};
+    others.insert(others.end(), instead.begin(), instead.end());
+    table.missing("at", "a station: at = position, node = number, or body = name", others);
+    return std::nullopt;
+  }
+  if (has_body && (has_at || has_node)) {
+    table.problem("body", "found a body and a place on the shaft, expected one of them");
+    return std::nullopt;
+  }
+  if (has_body) return body ? named_station(*body, table, "body", false) : std::nullopt;
+  s.where = table.where(has_at ? "at" : "node");
+  s.key = table.path(has_at ? "at" : "node");
+  if (has_at) {
+    if (!at || (has_node && !node)) return std::nullopt;
+    s.kind = Station::Kind::position;
+    s.z = *at;
+    if (has_node) double_stations.push_back({s, static_cast<int>(*node)});
+    return s;
+  }
+  if (!node) return std::nullopt;
+  s.kind = Station::Kind::node;
+  s.node = static_cast<int>(*node);
+  return s;
+}
+
+std::optional<Station> ModelReading::named_station(const std::string& name, TableReader& table,
+                                                   std::string_view key, bool may_be_ground) {
+  Station s{.where = table.where(key), .key = table.path(key)};
+  if (may_be_ground && name == "ground") return s;
+  const auto& bodies = model.structure.bodies;
+  const auto is_it = [&](const Body& body) { return !name.empty() && body.name == name; };
+  if (std::none_of(bodies.begin(), bodies.end(), is_it)) {
+    std::vector<std::string> known;
+    if (may_be_ground) known.push_back("ground");
+    for (const Body& body : bodies) {
+      if (!body.name.empty()) known.push_back(body.name);
+    }
+    if (known.empty()) {
+      table.problem(key, fmt::format("found {}, but the model has no [[body]]", in_quotes(name)));
+    } else {
+      table.unknown_choice(key, name, known);
+    }
+    return std::nullopt;
+  }
+  s.kind = Station::Kind::body;
+  s.body = name;
+  return s;
+}
+
+const Body* ModelReading::body_at(const Station& station) const {
+  if (station.kind != Station::Kind::body) return nullptr;
+  for (const Body& body : model.structure.bodies) {
+    if (body.name == station.body) return &body;
+  }
+  return nullptr;
+}
+
+std::optional<Material> ModelReading::material(TableReader& table) {
+  const auto name = table.string("material", true);
+  if (!name) return std::nullopt;
+  const auto found = materials.find(*name);
+  if (found != materials.end()) return found->second;
+  if (materials.empty()) {
+    table.problem("material", fmt::format("there is no [material.{}]", *name));
+  } else {
+    table.unknown_choice("material", *name, material_names());
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> ModelReading::material_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : materials) names.push_back(name);
+  return names;
+}
+
+}  // namespace whirl::inline io

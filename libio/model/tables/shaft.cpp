@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "libio/model/model_reading.hpp"
+#include "libio/model/model_table.hpp"
+#include "libio/model/read_parts.hpp"
+#include "libio/model/shaft_table.hpp"
+#include "libio/text/delimited.hpp"
+#include "libio/text/nearest.hpp"
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// Adds the segments and layers of a table.
+/// @param common  what holds for rows that do not say otherwise
+void add_rows(ModelReading& reading, TableReader& table, const Segment& common,
+              std::size_t number) {
+  Structure& s = reading.model.structure;
+  std::vector<Problem> wrong;
+  std::vector<ShaftRow> rows;
+  const auto from = reading.text_of(table, "table", "shaft", number);
+  if (from) rows = parse_shaft_table(from->text, from->name, wrong);
+  for (const ShaftRow& row : rows) {
+    const Where where{from->name, row.line, 1};
+    const Where at_material{from->name, row.line, row.material_place};
+    Material material = common.material;
+    if (const auto found = reading.materials.find(row.material); found != reading.materials.end()) {
+      material = found->second;
+    } else if (!row.material.empty()) {
+      const auto near = nearest(row.material, reading.material_names());
+      wrong.push_back({at_material, "material",
+                       fmt::format("found {}, expected one of {}{}", in_quotes(row.material),
+                                   fmt::join(reading.material_names(), ", "),
+                                   near ? fmt::format("; did you mean \"{}\"?", *near) : "")});
+    } else if (!table.has("material")) {
+      wrong.push_back({at_material, "material", "missing, expected the name of a material"});
+    }
+    const Rayleigh damping = row.has_damping ? row.damping : common.damping;
+    if (row.layer == 1) {
+      Segment segment = common;
+      segment.material = material;
+      segment.length = row.length;
+      segment.left = row.left;
+      segment.right = row.right;
+      if (row.elements > 0) segment.elements = row.elements;
+      segment.damping = damping;
+      segment.where = where;
+      s.shaft.push_back(segment);
+      continue;
+    }
+    Layer layer{.name = fmt::format("layer {} of row {}", row.layer, row.line),
+                .material = material,
+                .left = row.left,
+                .right = row.right,
+                .carries = row.carries,
+                .theory = common.theory,
+                .shear = common.shear,
+                .damping = damping,
+                .where = {from->name, row.line, row.inner_place}};
+    const double end = s.length();
+    layer.to = {.kind = Station::Kind::position, .z = end, .where = where, .key = "layer"};
+    layer.from = layer.to;
+    if (!s.shaft.empty()) layer.from.z = end - s.shaft.back().length;
+    s.layers.push_back(layer);
+  }
+  tell_once(wrong, 0);
+  // nothing is said of stations on a shaft that is not whole
+  if (!wrong.empty() || rows.empty()) s.shaft.push_back({});
+  reading.problems.insert(reading.problems.end(), wrong.begin(), wrong.end());
+}
+
+void read_shaft(ModelReading& reading) {
+  reading.for_each("shaft", [&](TableReader& table, std::size_t number) {
+    table.string("name");
+    Segment segment;
+    segment.where = table.where();
+    const bool has_table = table.has("table");
+    table.node("table");
+    if (table.has("material")) {
+      if (const auto m = reading.material(table)) segment.material = *m;
+    } else {
+      table.string("material");
+      if (!has_table) table.missing("material", "a text", {"table"});
+    }
+    table.read(segment);
+    if (!has_table && !table.has("length")) {
+      table.missing("length", expected_quantity("m"), {"table"});
+    }
+    read_shear(table, segment.shear);
+    read_rayleigh(reading, table, segment.damping);
+    constexpr int most_elements = 100'000;
+    table.at_most("elements", segment.elements, most_elements);
+    if (segment.elements > most_elements) segment.elements = 1;
+    table.at_most("internal_functions", segment.internal_functions, 4);
+    if (has_table) {
+      for (const char* key : {"length", "outer_diameter", "inner_diameter"}) {
+        if (table.node(key)) table.problem(key, "stands in the table; leave it out");
+      }
+      add_rows(reading, table, segment, number);
+      return;
+    }
+    table.string("table");
+    read_diameters(table, segment.left, segment.right, {"table"}, false);
+    reading.model.structure.shaft.push_back(segment);
+  });
+}
+
+}  // namespace
+
+ModelTable shaft_table() {
+  return {.name = "shaft",
+          .meaning = "segments of the shaft, one after another from z = 0",
+          .read = read_shaft,
+          .example =
+              "material = \"steel\"\n"
+              "length = 1\n"
+              "outer_diameter = 1\n",
+          .as_tables =
+              "outer_diameter = [1, 1]\n"
+              "inner_diameter = [0, 0]\n"
+              "shear_coefficient = \"cowper\"\n",
+          .as_values =
+              "outer_diameter = 1\n"
+              "inner_diameter = 0\n"
+              "shear_coefficient = 1\n",
+          .notes = {
+              {"material", "name of a [material.NAME]"},
+              {"table", "file with segments and layers row by row (CSV), beside the model"},
+              {"outer_diameter", "one value, or [left, right] of a cone"},
+              {"inner_diameter", "one value, or [left, right] of a cone; left out: solid", "0"},
+              {"shear_coefficient", "formula of the shear coefficient, or a number", "\"cowper\""},
+              {"rayleigh", "adds mass M + stiffness K of this segment to C"}}};
+}
+
+}  // namespace whirl::inline io
