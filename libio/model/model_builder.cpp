@@ -72,12 +72,14 @@ Model ModelBuilder::rebuild(const Model& base) {
   Model& model = reading_.model;
   model = base;
   model.contacts.clear();
+  model.films.clear();
   model.start = {};
   for_each_in_turn([&](const ModelTable& table) {
     if (!table.is_of_rotor) table.read(reading_);
   });
   throw_problems(reading_);
   model.structure.stations = base.structure.stations;
+  model.structure.bearings = base.structure.bearings;  // springs of films among them
   for (const auto& missing : reading_.missing_radii) {
     model.contacts[missing.contact].friction.radius =
         base.contacts[missing.contact].friction.radius;

@@ -29,12 +29,18 @@ bool same_place(const Station& a, const Station& b) {
   return a.kind == b.kind && a.z == b.z && a.node == b.node && a.body == b.body;
 }
 
-/// Whether contacts act on the same coordinates of the rotor.
-bool same_ports(const std::vector<Contact>& a, const std::vector<Contact>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Contact& x, const Contact& y) {
+/// Whether the contacts and films of two models act on the same coordinates of the same rotor.
+bool same_ports(const Model& a, const Model& b) {
+  const auto same_contact = [](const Contact& x, const Contact& y) {
     return same_place(x.at, y.at) && same_place(x.against, y.against) &&
            geometry_of(x).index() == geometry_of(y).index();
-  });
+  };
+  const auto same_film = [](const OilFilm& x, const OilFilm& y) {
+    return same_place(x.at, y.at) && same_place(x.against, y.against) &&
+           spring_of(x.law) == spring_of(y.law);
+  };
+  return std::ranges::equal(a.contacts, b.contacts, same_contact) &&
+         std::ranges::equal(a.films, b.films, same_film);
 }
 
 }  // namespace
@@ -58,7 +64,7 @@ struct ModelFamily::State {
     int count = 0;
     Modes modes;
   };
-  std::shared_ptr<const KnownModes> modes;  ///< of the last start, in a light family
+  std::shared_ptr<const KnownModes> modes;  ///< of the last start, in a light family without films
 };
 
 ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
@@ -86,7 +92,7 @@ Model ModelFamily::model(std::span<const double> values) const {
   const Model& base = state_->base;
   Model member;
   if (state_->is_light) member = ModelBuilder(root, state_->files).rebuild(base);
-  if (!state_->is_light || !same_ports(member.contacts, base.contacts)) {
+  if (!state_->is_light || !same_ports(member, base)) {
     member = ModelBuilder(root, state_->files).build();
   }
   member.source = base.source;
@@ -98,7 +104,7 @@ std::shared_ptr<const Scene> ModelFamily::scene(const Model& member) const {
   const auto whole = [&] {
     return std::make_shared<const Scene>(make_scene(member, ReductionEstimate::no));
   };
-  if (!state_->is_light || !same_ports(member.contacts, state_->base.contacts)) return whole();
+  if (!state_->is_light || !same_ports(member, state_->base)) return whole();
   std::shared_ptr<const Scene> on;
   {
     const std::lock_guard lock(state_->mutex);
@@ -138,7 +144,8 @@ std::shared_ptr<const Scene> ModelFamily::scene(std::span<const double> values) 
 MotionState ModelFamily::start(const Model& member, const Scene& scene,
                                const FullState* end) const {
   const int count = modes_of(member.start);
-  if (count == 0 || !state_->is_light) return start_state(member, scene, end);
+  const bool same_modes = state_->is_light && member.films.empty();
+  if (count == 0 || !same_modes) return start_state(member, scene, end);
   std::shared_ptr<const State::KnownModes> known;
   {
     const std::lock_guard lock(state_->mutex);

@@ -58,6 +58,56 @@ TEST(ModelFamily, MembersAreThoseOfTheWholeModel) {
   }
 }
 
+// Values of films, and a spring of theirs, which is one of the rotor's bearings; modes for the
+// start are those about the equilibrium on the films.
+TEST(ModelFamily, FilmsAreThoseOfTheWholeModel) {
+  const Model on_films = read_model(WHIRL_SOURCE_DIR "/models/two_disk_oil_film.toml",
+                                    {"start.whirl=[{mode=1,amplitude=1e-6}]"});
+  const Model squeezed = parse_model(R"(format = 1
+[operation]
+speed = 300
+[[body]]
+name = "rotor"
+mass = 10
+spins = true
+[[unbalance]]
+body = "rotor"
+moment = 1e-4
+[[oil_film]]
+name = "damper"
+body = "rotor"
+law = "squeeze"
+radius = 0.05
+length = 0.02
+clearance = 1e-4
+viscosity = 0.01
+spring = 1e6
+)");
+  const auto try_family = [](const Model& base, const std::string& text) {
+    SCOPED_TRACE(text);
+    const ParameterAxis one = axis(text);
+    const ModelFamily family(base, {one});
+    std::vector<std::vector<double>> seen;
+    for (const double value : one.values) {
+      const Model whole = parse_model(base.source, base.path, one.assignments_of(value));
+      const Scene expected = make_scene(whole, ReductionEstimate::no);
+      const Model member = family.model(std::vector{value});
+      const auto scene = family.scene(member);
+      seen.push_back(numbers_of(*scene, 1e-5));
+      EXPECT_EQ(seen.back(), numbers_of(expected, 1e-5)) << value;
+      EXPECT_EQ(member.structure.bearings.size(), whole.structure.bearings.size());
+      EXPECT_EQ(family.start(member, *scene, nullptr).y, start_state(whole, expected, nullptr).y);
+    }
+    EXPECT_NE(seen.front(), seen.back());
+  };
+  for (const char* text :
+       {"oil_film.1.viscosity=0.01,0.02 Pa.s", "oil_film.2.clearance=0.1,0.12 mm"}) {
+    try_family(on_films, text);
+  }
+  try_family(squeezed, "oil_film.damper.viscosity=0.01,0.02 Pa.s");
+  try_family(squeezed, "oil_film.damper.spring=1e6,2e6 N/m");
+}
+
 // Layers, and a shaft whose table stands in the text by now.
 TEST(ModelFamily, LayersAndTablesAreReadAgain) {
   const Model base = parse_model(R"(format = 1

@@ -60,6 +60,7 @@ ModelTable oil_film_table() {
           .meaning = "plain journal bearings with nonlinear oil films",
           .read = read_films,
           .turn = ModelTable::Turn::late,
+          .is_of_rotor = false,
           .example =
               "body = \"b\"\n"
               "radius = 1\n"
