@@ -31,8 +31,7 @@ void check_stations(ModelReading& reading, const Mesh& mesh) {
     try {
       resolve(*station, s, mesh);
     } catch (const ModelError& error) {
-      reading.problems.insert(reading.problems.end(), error.problems().begin(),
-                              error.problems().end());
+      reading.add_problems(error.problems());
     }
   }
   for (const auto& d : reading.double_stations) {
@@ -108,8 +107,7 @@ void check_places(ModelReading& reading) {
   try {
     mesh = make_mesh(s);
   } catch (const ModelError& error) {
-    reading.problems.insert(reading.problems.end(), error.problems().begin(),
-                            error.problems().end());
+    reading.add_problems(error.problems());
     return;
   }
   check_stations(reading, mesh);

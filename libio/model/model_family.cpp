@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::size_t remembered = 4;  ///< scenes; a difference of an equation asks for two
 
-/// Whether a path leaves the rotor and its stations as they are.
-bool is_light(const std::string& path) {
+/// The table that a path is in; null: it is at the top of the file.
+const ModelTable* table_of(const std::string& path) {
   const std::vector<ModelTable>& all = model_tables();
   const auto table = std::ranges::find(all, path.substr(0, path.find('.')), &ModelTable::name);
-  return table != all.end() && !table->is_of_rotor;
+  return table == all.end() ? nullptr : &*table;
 }
 
 bool same_place(const Station& a, const Station& b) {
@@ -49,8 +49,9 @@ struct ModelFamily::State {
   Model base;
   std::vector<ParameterAxis> axes;
   ConfigNode root;
-  NamedFiles files;       ///< none: the model has its tables in it
-  bool is_light = false;  ///< no value changes the rotor
+  NamedFiles files;         ///< none: the model has its tables in it
+  bool is_light = false;    ///< no value changes the rotor
+  bool same_modes = false;  ///< nor a film, about whose equilibrium modes are
 
   struct Known {
     std::vector<double> values;
@@ -64,7 +65,7 @@ struct ModelFamily::State {
     int count = 0;
     Modes modes;
   };
-  std::shared_ptr<const KnownModes> modes;  ///< of the last start, in a light family without films
+  std::shared_ptr<const KnownModes> modes;  ///< of the last start
 };
 
 ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
@@ -73,11 +74,15 @@ ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
   state_->axes = std::move(axes);
   state_->root = parse_toml(base.source, base.path);
   state_->files = NamedFiles::none_in(std::filesystem::path(base.path).parent_path());
-  state_->is_light =
-      std::all_of(state_->axes.begin(), state_->axes.end(), [](const ParameterAxis& axis) {
-        const std::vector<std::string> paths = axis.paths();
-        return std::all_of(paths.begin(), paths.end(), is_light);
-      });
+  state_->is_light = state_->same_modes = true;
+  for (const ParameterAxis& axis : state_->axes) {
+    for (const std::string& path : axis.paths()) {
+      const ModelTable* const table = table_of(path);
+      const bool is_light = table && !table->is_of_rotor;
+      state_->is_light = state_->is_light && is_light;
+      state_->same_modes = state_->same_modes && is_light && table->name != "oil_film";
+    }
+  }
 }
 
 ModelFamily::~ModelFamily() = default;
@@ -144,8 +149,7 @@ std::shared_ptr<const Scene> ModelFamily::scene(std::span<const double> values) 
 MotionState ModelFamily::start(const Model& member, const Scene& scene,
                                const FullState* end) const {
   const int count = modes_of(member.start);
-  const bool same_modes = state_->is_light && member.films.empty();
-  if (count == 0 || !same_modes) return start_state(member, scene, end);
+  if (count == 0 || !state_->same_modes) return start_state(member, scene, end);
   std::shared_ptr<const State::KnownModes> known;
   {
     const std::lock_guard lock(state_->mutex);

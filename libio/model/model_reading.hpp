@@ -54,6 +54,9 @@ class ModelReading {
   };
   std::vector<MissingRadius> missing_radii;
 
+  void add_problems(const std::vector<Problem>& found) {
+    problems.insert(problems.end(), found.begin(), found.end());
+  }
   /// Reader of a table of which there is one.
   TableReader table(const char* name) { return {root.find(name), name, problems, asked}; }
   /// Reader of a table at a key of another one.

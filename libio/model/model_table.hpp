@@ -19,8 +19,8 @@ struct KeyNote {
   std::string_view otherwise = "";  ///< what holds if it is left out, as it would be written
 };
 
-/// A key on which it depends what else its table holds: on its value if it is one of some names,
-/// else on whether it is there.
+/// A key that decides what else its table holds: by its value where that is one of some names, else
+/// by being there.
 struct KeySwitch {
   std::string_view key;
   std::string_view otherwise = "";  ///< value if it is left out; empty: other keys tell it
@@ -39,10 +39,10 @@ struct ModelTable {
   Form form = Form::several;
   /// Reads all tables of this name; there may be none.
   void (*read)(ModelReading& reading) = nullptr;
-  /// Early: others name what it holds. Late: it adds to what others hold.
+  /// Early: other tables name what this one holds. Late: this one adds to what others hold.
   Turn turn = Turn::middle;
-  /// Whether its values change the rotor: its mesh, matrices or loads. Of a member of a family only
-  /// the other tables are read, see ModelFamily.
+  /// Whether its values change the rotor: its mesh, matrices or loads. Tables whose values do not
+  /// are the only ones that are read again for a member of a family, see ModelFamily.
   bool is_of_rotor = true;
   /// A right one, of a model with a material steel, a shaft and a body b that spins.
   std::string_view example = "";

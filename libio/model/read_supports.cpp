@@ -103,7 +103,7 @@ std::optional<CoefficientTable> coefficient_table(ModelReading& reading, TableRe
   if (!from) return std::nullopt;
   std::vector<Problem> wrong;
   const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong, &reading.doubts);
-  reading.problems.insert(reading.problems.end(), wrong.begin(), wrong.end());
+  reading.add_problems(wrong);
   return read;
 }
 
@@ -118,6 +118,18 @@ bool read_coefficients(ModelReading& reading, TableReader& table, AnyBearing& to
   };
   std::visit([&](auto& kind) { table.read(kind, read_table); }, to);
   return has_any(table, keys_of_kind(to));
+}
+
+ModelTable support_table(std::string_view name, std::string_view meaning,
+                         void (*read)(ModelReading& reading)) {
+  return {.name = name,
+          .meaning = meaning,
+          .read = read,
+          .example =
+              "body = \"b\"\n"
+              "stiffness = 1\n",
+          .switches = {{"kind"}},
+          .notes = {{"kind", "how its coefficients are given; left out: told by the other keys"}}};
 }
 
 void read_supports(ModelReading& reading, const char* array, std::vector<Connection>& to) {

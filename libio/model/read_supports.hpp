@@ -1,11 +1,17 @@
 #pragma once
 /// Keys of bearings, seals and links.
 
+#include <string_view>
 #include <vector>
 
 #include "libio/model/model_reading.hpp"
+#include "libio/model/model_table.hpp"
 
 namespace whirl::inline io {
+
+/// The table of bearings or seals.
+ModelTable support_table(std::string_view name, std::string_view meaning,
+                         void (*read)(ModelReading& reading));
 
 /// All bearings or seals.
 void read_supports(ModelReading& reading, const char* array, std::vector<Connection>& to);

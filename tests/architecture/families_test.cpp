@@ -99,8 +99,9 @@ TEST(ModelTables, EachIsAFileAndOneLineOfTheList) {
   const std::vector<std::string> names = names_in("libio/model/model_tables.cpp", "table");
   EXPECT_GE(names.size(), 18u);
   for (const std::string& name : names) {
-    EXPECT_EQ(places_in("libio/model", "\\b" + name + "_table\\("),
-              (std::map<std::string, int>{{"tables/" + name + ".cpp", 1}, {"model_tables.cpp", 1}}));
+    EXPECT_EQ(
+        places_in("libio/model", "\\b" + name + "_table\\("),
+        (std::map<std::string, int>{{"tables/" + name + ".cpp", 1}, {"model_tables.cpp", 1}}));
   }
   for (const char* folder : {"python/whirl", "python/module"}) {
     EXPECT_TRUE(places_in(folder, "\"oil_film\"").empty()) << folder;

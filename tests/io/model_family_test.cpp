@@ -36,6 +36,29 @@ std::vector<double> numbers_of(const Scene& scene, double size = 1e-2) {
   return numbers;
 }
 
+/// Members of a family over some values beside the whole models: scenes and starts. Returns the
+/// numbers of every scene.
+std::vector<std::vector<double>> members_beside_whole_models(const Model& base,
+                                                             const std::string& text,
+                                                             double size = 1e-2) {
+  SCOPED_TRACE(text);
+  const ParameterAxis one = axis(text);
+  const ModelFamily family(base, {one});
+  std::vector<std::vector<double>> seen;
+  for (const double value : one.values) {
+    const Model whole = parse_model(base.source, base.path, one.assignments_of(value));
+    const Scene expected = make_scene(whole, ReductionEstimate::no);
+    const auto scene = family.scene(std::vector{value});
+    seen.push_back(numbers_of(*scene, size));
+    EXPECT_EQ(seen.back(), numbers_of(expected, size)) << value;
+    const Model member = family.model(std::vector{value});
+    EXPECT_EQ(member.speed, whole.speed);
+    EXPECT_EQ(member.structure.bearings.size(), whole.structure.bearings.size());
+    EXPECT_EQ(family.start(member, *scene, nullptr).y, start_state(whole, expected, nullptr).y);
+  }
+  return seen;
+}
+
 TEST(ModelFamily, MembersAreThoseOfTheWholeModel) {
   const Model base = read_model(two_disk);
   const std::string contact = "contact." + base.contacts.at(0).name;
@@ -43,18 +66,7 @@ TEST(ModelFamily, MembersAreThoseOfTheWholeModel) {
        {contact + ".stiffness=1e6,2.5e6 N/m", contact + ".friction=0.05,0.2",
         std::string("operation.speed=3000,4430 rpm"), std::string("gravity=0,9.81 m/s^2"),
         contact + ".node=6,8", std::string("bearing.left.damping=100,500 N.s/m")}) {
-    SCOPED_TRACE(text);
-    const ParameterAxis one = axis(text);
-    const ModelFamily family(base, {one});
-    for (const double value : one.values) {
-      const Model whole = parse_model(base.source, base.path, one.assignments_of(value));
-      const Scene expected = make_scene(whole, ReductionEstimate::no);
-      const auto scene = family.scene(std::vector{value});
-      EXPECT_EQ(numbers_of(*scene), numbers_of(expected)) << value;
-      const Model member = family.model(std::vector{value});
-      EXPECT_EQ(member.speed, whole.speed);
-      EXPECT_EQ(family.start(member, *scene, nullptr).y, start_state(whole, expected, nullptr).y);
-    }
+    members_beside_whole_models(base, text);
   }
 }
 
@@ -83,29 +95,14 @@ clearance = 1e-4
 viscosity = 0.01
 spring = 1e6
 )");
-  const auto try_family = [](const Model& base, const std::string& text) {
-    SCOPED_TRACE(text);
-    const ParameterAxis one = axis(text);
-    const ModelFamily family(base, {one});
-    std::vector<std::vector<double>> seen;
-    for (const double value : one.values) {
-      const Model whole = parse_model(base.source, base.path, one.assignments_of(value));
-      const Scene expected = make_scene(whole, ReductionEstimate::no);
-      const Model member = family.model(std::vector{value});
-      const auto scene = family.scene(member);
-      seen.push_back(numbers_of(*scene, 1e-5));
-      EXPECT_EQ(seen.back(), numbers_of(expected, 1e-5)) << value;
-      EXPECT_EQ(member.structure.bearings.size(), whole.structure.bearings.size());
-      EXPECT_EQ(family.start(member, *scene, nullptr).y, start_state(whole, expected, nullptr).y);
-    }
-    EXPECT_NE(seen.front(), seen.back());
+  const auto expect_films = [](const Model& base, const std::string& text) {
+    const auto seen = members_beside_whole_models(base, text, 1e-5);
+    EXPECT_NE(seen.front(), seen.back()) << text;
   };
-  for (const char* text :
-       {"oil_film.1.viscosity=0.01,0.02 Pa.s", "oil_film.2.clearance=0.1,0.12 mm"}) {
-    try_family(on_films, text);
-  }
-  try_family(squeezed, "oil_film.damper.viscosity=0.01,0.02 Pa.s");
-  try_family(squeezed, "oil_film.damper.spring=1e6,2e6 N/m");
+  expect_films(on_films, "oil_film.1.viscosity=0.01,0.02 Pa.s");
+  expect_films(on_films, "oil_film.2.clearance=0.1,0.12 mm");
+  expect_films(squeezed, "oil_film.damper.viscosity=0.01,0.02 Pa.s");
+  expect_films(squeezed, "oil_film.damper.spring=1e6,2e6 N/m");
 }
 
 // Layers, and a shaft whose table stands in the text by now.
@@ -139,16 +136,8 @@ stiffness = 1e6
 )");
   for (const char* text : {"layer.sleeve.outer_diameter=40,60 mm", "layer.sleeve.to=250,400 mm",
                            "material.steel.density=7000,8000 kg/m^3"}) {
-    SCOPED_TRACE(text);
-    const ParameterAxis one = axis(text);
-    const ModelFamily family(base, {one});
-    std::vector<std::vector<double>> seen;
-    for (const double value : one.values) {
-      const Model whole = parse_model(base.source, base.path, one.assignments_of(value));
-      seen.push_back(numbers_of(*family.scene(std::vector{value})));
-      EXPECT_EQ(seen.back(), numbers_of(make_scene(whole, ReductionEstimate::no))) << value;
-    }
-    EXPECT_NE(seen.front(), seen.back());
+    const auto seen = members_beside_whole_models(base, text);
+    EXPECT_NE(seen.front(), seen.back()) << text;
   }
 }
 

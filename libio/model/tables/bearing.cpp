@@ -1,5 +1,3 @@
-#include "libio/model/model_reading.hpp"
-#include "libio/model/model_table.hpp"
 #include "libio/model/read_supports.hpp"
 
 namespace whirl::inline io {
@@ -13,14 +11,8 @@ void read_bearings(ModelReading& reading) {
 }  // namespace
 
 ModelTable bearing_table() {
-  return {.name = "bearing",
-          .meaning = "linear bearings, from a station to the ground or to a body",
-          .read = read_bearings,
-          .example =
-              "body = \"b\"\n"
-              "stiffness = 1\n",
-          .switches = {{"kind"}},
-          .notes = {{"kind", "how its coefficients are given; left out: told by the other keys"}}};
+  return support_table("bearing", "linear bearings, from a station to the ground or to a body",
+                       read_bearings);
 }
 
 }  // namespace whirl::inline io

@@ -14,7 +14,7 @@ void read_bow(ModelReading& reading) {
   } else if (from) {
     std::vector<Problem> wrong;
     reading.model.structure.bow = parse_bow_table(from->text, from->name, wrong);
-    reading.problems.insert(reading.problems.end(), wrong.begin(), wrong.end());
+    reading.add_problems(wrong);
     if (!reading.root.find("shaft"))
       table.problem("table", "a bow is one of a shaft: there is none");
   }

@@ -1,5 +1,3 @@
-#include "libio/model/model_reading.hpp"
-#include "libio/model/model_table.hpp"
 #include "libio/model/read_supports.hpp"
 
 namespace whirl::inline io {
@@ -13,14 +11,7 @@ void read_seals(ModelReading& reading) {
 }  // namespace
 
 ModelTable seal_table() {
-  return {.name = "seal",
-          .meaning = "seals with linear coefficients, likewise",
-          .read = read_seals,
-          .example =
-              "body = \"b\"\n"
-              "stiffness = 1\n",
-          .switches = {{"kind"}},
-          .notes = {{"kind", "how its coefficients are given; left out: told by the other keys"}}};
+  return support_table("seal", "seals with linear coefficients, likewise", read_seals);
 }
 
 }  // namespace whirl::inline io

@@ -68,7 +68,7 @@ void add_rows(ModelReading& reading, TableReader& table, const Segment& common,
   tell_once(wrong, 0);
   // nothing is said of stations on a shaft that is not whole
   if (!wrong.empty() || rows.empty()) s.shaft.push_back({});
-  reading.problems.insert(reading.problems.end(), wrong.begin(), wrong.end());
+  reading.add_problems(wrong);
 }
 
 void read_shaft(ModelReading& reading) {
