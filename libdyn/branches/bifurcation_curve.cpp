@@ -324,14 +324,14 @@ void find_graze(const ContactSystem& system, std::size_t contact, const Step& st
   Vec y(system.size());
   const auto at = [&](double s) {
     step.at(s, y.data());
-    return kinematics(c, step.phase + s * step.turn, y.data(), system.layout());
+    return kinematics(c, step.angle(s), y.data(), system.layout());
   };
   const auto rate_at = [&](double s) { return at(s).rate; };
   const auto take = [&](double s) {
     const double depth = at(s).depth / c.clearance;
     if (!(std::abs(depth) < std::abs(nearest.depth))) return;
     nearest.depth = depth;
-    nearest.time = (step.phase + s * step.turn) / system.phase_rate();
+    nearest.time = step.angle(s) / system.phase_rate();
     nearest.contact = static_cast<int>(contact);
   };
   double before = rate_at(0.0);

@@ -127,10 +127,10 @@ ContactSystem RangeSlopes::system_at(double value) const {
   const auto small = [&](const Mat& A) -> Mat { return T.transpose() * A * T; };
   const ReducedSystem& own = scene->reduced;
   const Model model = model_at_(value);
-  return ContactSystem(
-      scene->assembler,
-      {own.Phi * T, small(own.M), small(own.C), small(own.G), small(own.K), own.dofs, own.Omega},
-      model.contacts, model.films);
+  return ContactSystem(scene->assembler,
+                       {own.Phi * T, small(own.M), small(own.C), small(own.G), small(own.K),
+                        small(own.H), own.dofs, own.Omega},
+                       model.contacts, model.films);
 }
 
 void RangeSlopes::look() const {

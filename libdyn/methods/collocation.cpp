@@ -235,7 +235,7 @@ bool CollocationRun::show(double limit) {
   });
   if (goes_on) return false;
   state_.y = held_end_;
-  state_.phase = held_.phase + held_.turn;
+  state_.phase = held_.angle(1.0);
   result_.outcome = Outcome::stopped_by_observer;
   return true;
 }

@@ -27,7 +27,7 @@ class Sampler {
       const double phase = spacing * static_cast<double>(next_ % recording_.samples);
       if (revolution != step.revolution || phase >= step.phase + step.turn * (1.0 + 1e-14)) return;
       // a sample at the very start of a revolution belongs to the step that begins there
-      const double s = std::clamp((phase - step.phase) / step.turn, 0.0, 1.0);
+      const double s = step.after_turn(phase - step.phase);
       step.at(s, y_.data());
       recording_.eta.col(next_) = system_.layout().eta(y_);
       if (!system_.contacts().empty()) {

@@ -248,7 +248,7 @@ std::optional<double> recurrence(const Scene& scene, const Vec& start, long revo
   integrate_single(t, {}, [&](const Step& step) {
     for (int k = 1; k <= 4; ++k) {
       step.at(k / 4.0, y.data());
-      const double phase = step.phase + step.turn * k / 4.0;
+      const double phase = step.angle(k / 4.0);
       const Vec z = rotation(S, -phase) * y;
       times.push_back((static_cast<double>(step.revolution) + phase / turn) * system.period());
       distances.push_back(distance(system, z, start));

@@ -69,7 +69,7 @@ Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
     for (; next < N; ++next) {
       const double phase = turn * static_cast<double>(next) / first_samples;
       if (phase > begin + step.turn) break;
-      step.at(std::clamp((phase - begin) / step.turn, 0.0, 1.0), now.data());
+      step.at(step.after_turn(phase - begin), now.data());
       eta.col(next) = layout.eta(now);
     }
     return true;

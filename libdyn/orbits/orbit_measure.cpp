@@ -98,7 +98,7 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
   Vec at(layout.size());
   integrate_single(t, {.sections = true}, [&](const Step& step) {
     const double begin = static_cast<double>(step.revolution) * turn + step.phase;
-    const double share = std::clamp((end - begin) / step.turn, 0.0, 1.0);
+    const double share = step.after_turn(end - begin);
     for (int i = 0; i < quadrature_points && share > 0.0; ++i) {
       const double s = share * gauss.x(i);
       step.at(s, at.data());

@@ -49,8 +49,7 @@ double repeating_time(const ContactSystem& system, const MotionState& from, doub
     const double begin =
         static_cast<double>(step.revolution - from.revolution) * turn + step.phase - from.phase;
     for (; number <= most && static_cast<double>(number) * each <= begin + step.turn; ++number) {
-      step.at(std::clamp((static_cast<double>(number) * each - begin) / step.turn, 0.0, 1.0),
-              y.data());
+      step.at(step.after_turn(static_cast<double>(number) * each - begin), y.data());
       if (!(distance(system, y, from.y) < repeats[sure_repeats - 1])) continue;
       found = number;
       return false;

@@ -87,7 +87,7 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
                              const std::vector<OilFilm>& films)
     : Omega_(reduced.Omega) {
   const Reduction by(assembler, reduced);
-  K_ = by.mass.solve(reduced.K);
+  K_ = by.mass.solve(reduced.stiffness());
   D_ = by.mass.solve(reduced.D());
   add_loads(by);
   for (const Contact& c : contacts) add_contact(by, c, static_cast<int>(&c - contacts.data()));

@@ -1,5 +1,8 @@
 #include "libdyn/system/corrected_scene.hpp"
 
+#include <array>
+#include <utility>
+
 #include "libdyn/system/system_slope.hpp"
 #include "libfe/analyses/static_shapes.hpp"
 
@@ -12,9 +15,12 @@ Scene corrected_scene(const Scene& scene, const Model& model, std::span<const Mo
   Mat loads(Phi.rows(), 0);
   for (const Model& other : others) {
     const System changed = system_beside(scene, Assembler(other.structure), other);
-    for (const auto matrix : {&System::M, &System::C, &System::G, &System::K}) {
-      const Sparse change = changed.*matrix - system.*matrix;
-      if (!(change.norm() > rounding * (system.*matrix).norm())) continue;
+    const Sparse K = system.stiffness(), changed_K = changed.stiffness();
+    const std::array pairs{std::pair(&changed.M, &system.M), std::pair(&changed.C, &system.C),
+                           std::pair(&changed.G, &system.G), std::pair(&changed_K, &K)};
+    for (const auto& [there, here] : pairs) {
+      const Sparse change = *there - *here;
+      if (!(change.norm() > rounding * here->norm())) continue;
       loads.conservativeResize(Phi.rows(), loads.cols() + Phi.cols());
       loads.rightCols(Phi.cols()) = change * Phi;
     }

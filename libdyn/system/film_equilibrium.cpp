@@ -73,16 +73,16 @@ Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, do
   p.held.ports = independent_rows(Mat(all));  // two films may be at one station
   const Sparse U = chosen_rows(all, p.held.ports.chosen);
   const Eigen::Index n = p.system.size(), ports = U.rows();
-  const double largest =
-      p.system.K.coeffs().size() > 0 ? p.system.K.coeffs().abs().maxCoeff() : 0.0;
+  const Sparse K = p.system.stiffness();
+  const double largest = K.coeffs().size() > 0 ? K.coeffs().abs().maxCoeff() : 0.0;
   const double s = largest > 0.0 ? largest : 1.0;
-  const Sparse clamped = p.system.K + s * Sparse(U.transpose() * U);
+  const Sparse clamped = K + s * Sparse(U.transpose() * U);
   if (!is_supported(symmetric_part(clamped))) {
     throw ModelError({}, "",
                      "the rotor or a body is free to move, even where oil films hold the journals: "
                      "add a [[bearing]] or a [[link]] that holds it");
   }
-  const SparseLu lu(held_matrix(p.system.K, U, s));
+  const SparseLu lu(held_matrix(K, U, s));
   if (!lu.is_regular()) throw NumericalError("the stiffness is singular at this speed");
   Mat wanted = Mat::Zero(n + ports, 1 + ports);
   wanted.col(0).head(n) = p.system.dofs.T.transpose() * static_load(assembler);

@@ -16,12 +16,8 @@ System system_beside(const Scene& scene, const Assembler& assembler, const Model
 ContactSystem in_shapes_of(const Scene& scene, const Model& model) {
   const Assembler assembler(model.structure);
   const System system = system_beside(scene, assembler, model);
-  const Mat& Phi = scene.reduced.Phi;
-  const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
-  const ReducedSystem reduced{
-      Phi,         small(system.M), small(system.C), small(system.G), small(system.K),
-      system.dofs, system.Omega};
-  return ContactSystem(assembler, reduced, model.contacts, model.films);
+  return ContactSystem(assembler, in_shapes(system, scene.reduced.Phi), model.contacts,
+                       model.films);
 }
 
 SystemSlope slope_of(std::string name, double value, double size,

@@ -1,6 +1,7 @@
 #pragma once
 /// What all integrators share: the state of a motion, a step with dense output, options, outcomes.
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,11 +27,16 @@ struct Step {
   long revolution = 0;
   double phase = 0.0;  ///< at the start [rad]
   double h = 0.0;      ///< duration [s]
-  double turn = 0.0;   ///< phase that passes, phase_rate * h [rad]
+  double turn = 0.0;   ///< by which the rotor turns in it [rad]
   Mat q, v;            ///< coefficients of eta and eta', n x (degree + 1)
   ContactStates contacts;
 
-  Instant instant(double s) const { return {phase + s * turn, revolution}; }
+  /// Angle of the rotor, from the start of the revolution [rad].
+  double angle(double s) const { return phase + s * turn; }
+  Instant instant(double s) const { return {angle(s), revolution}; }
+  /// The s at which the rotor has turned by an angle since the start [rad], of one beyond the step
+  /// the nearest end.
+  double after_turn(double by) const { return std::clamp(by / turn, 0.0, 1.0); }
 
   /// State at 0 <= s <= 1.
   void at(double s, double* y) const {

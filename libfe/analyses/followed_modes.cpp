@@ -59,7 +59,7 @@ class AtSpeed {
       : assembler_(assembler), Omega_(Omega) {
     if (assembler.depends_on_whirl()) return;
     system_ = finder.system(Omega);
-    newton_.emplace(system_.M, system_.D(), system_.K);
+    newton_.emplace(system_.M, system_.D(), system_.stiffness());
   }
 
   const DofMap& dofs() const { return system_.dofs; }
@@ -81,7 +81,7 @@ class AtSpeed {
     double omega = pair.lambda.imag(), last_omega = 0.0, last_gap = 0.0;
     for (int i = 0; i < most_owns; ++i) {
       system_ = assembler_.at(Omega_, omega);
-      PairNewton newton(system_.M, system_.D(), system_.K);
+      PairNewton newton(system_.M, system_.D(), system_.stiffness());
       if (!newton.converge(pair, settled)) return false;
       const double gap = pair.lambda.imag() - omega;
       if (std::abs(gap) <= exactly_own * omega) return true;

@@ -44,7 +44,7 @@ struct FreeBody {
 };
 
 FreeBody free_body(const System& system) {
-  const Sparse K = symmetric_part(system.K);
+  const Sparse K = symmetric_part(system.stiffness());
   if (is_supported(K)) return {};
   Sparse M = symmetric_inertia(
       system.M);  // joints without mass get plenty, which makes first_flexible low: safe
@@ -58,9 +58,9 @@ FreeBody free_body(const System& system) {
 
 /// Size of the strain energy per kinetic energy at unit frequency, |q^H K q| / q^H M q: what skew
 /// stiffness does to a whirl counts, too.
-double stiffness_ratio(const System& system, const CVec& q) {
-  const double strain = std::abs((q.adjoint() * (system.K * q))(0));
-  const double inertia = (q.adjoint() * (system.M * q))(0).real();
+double stiffness_ratio(const Sparse& K, const Sparse& M, const CVec& q) {
+  const double strain = std::abs((q.adjoint() * (K * q))(0));
+  const double inertia = (q.adjoint() * (M * q))(0).real();
   return inertia > 0.0 ? strain / inertia : std::numeric_limits<double>::infinity();
 }
 
@@ -110,15 +110,15 @@ double reach_of(Complex lambda, const CVec& all) {
 
 Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, int count) {
   if (system.Omega == 0.0) separate_planes(found, system.dofs);
-  const Sparse D = system.D();
-  Refinement refinement(system.M, D, system.K);
+  const Sparse D = system.D(), K = system.stiffness();
+  Refinement refinement(system.M, D, K);
   Modes modes;
   for (Eigen::Index i = 0; i < found.lambda.size(); ++i) {
     Complex lambda = found.lambda(i);
     CVec q = found.q.col(i);
     const bool is_rigid =
         body.is_free &&
-        stiffness_ratio(system, q) <= rigid_share * body.first_flexible * body.first_flexible;
+        stiffness_ratio(K, system.M, q) <= rigid_share * body.first_flexible * body.first_flexible;
     if (is_rigid) {
       // a double zero comes as a small pair of any sign, which is no damping
       const bool is_zero = std::abs(lambda) <= rigid_zero * body.first_flexible;
@@ -204,7 +204,7 @@ std::optional<Modes> searched_modes(const System& system, const Knowledge& known
                                  .bounds = known.bounds};
     QuadraticModes found;
     try {
-      found = lowest_frequencies(system.M, system.D(), system.K, search);
+      found = lowest_frequencies(system.M, system.D(), system.stiffness(), search);
     } catch (const NumericalError&) {
       return std::nullopt;
     }
@@ -227,8 +227,9 @@ Modes sparse_modes(const System& system, Knowledge& known, int count) {
     if (std::optional<Modes> modes = searched_modes(system, known, count)) return *std::move(modes);
   }
   // all at once takes longer for large systems, but does not depend on where modes are
-  return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(known.body)),
-                system, known.body, count);
+  return sorted(
+      dense_quadratic_modes(system.M, system.D(), system.stiffness(), shift_for(known.body)),
+      system, known.body, count);
 }
 
 /// How many modes beside the oscillatory ones to expect among the lowest of an unknown system.
@@ -237,10 +238,11 @@ int usual_others(const FreeBody& body) {
 }
 
 Knowledge knowledge_of(const System& system) {
-  Knowledge known{.body = free_body(system), .bounds = energy_bounds(system.D(), system.K)};
+  Knowledge known{.body = free_body(system),
+                  .bounds = energy_bounds(system.D(), system.stiffness())};
   known.others = usual_others(known.body);
   try {
-    known.arnoldi.emplace(system.M, system.K, shift_for(known.body));
+    known.arnoldi.emplace(system.M, system.stiffness(), shift_for(known.body));
   } catch (const NumericalError&) {  // K has no inverse: other shifts do without
   }
   return known;
@@ -324,13 +326,14 @@ Mode mode_of(Complex lambda, const CVec& q, const DofMap& dofs) {
 
 std::vector<Mode> reduced_modes(const ReducedSystem& reduced, int count) {
   // about a shift below all frequencies, as stiffness may leave something free
+  const Mat K = reduced.stiffness();
   double lowest = 1.0;
-  for (Eigen::Index i = 0; i < reduced.K.rows(); ++i) {
-    const double square = reduced.K(i, i) / reduced.M(i, i);
+  for (Eigen::Index i = 0; i < K.rows(); ++i) {
+    const double square = K(i, i) / reduced.M(i, i);
     if (square > 0.0) lowest = std::min(i > 0 ? lowest : square, square);
   }
   QuadraticModes found = dense_quadratic_modes(reduced.M.sparseView(), reduced.D().sparseView(),
-                                               reduced.K.sparseView(), -0.1 * std::sqrt(lowest));
+                                               K.sparseView(), -0.1 * std::sqrt(lowest));
   found.q = reduced.Phi * found.q;
   if (reduced.Omega == 0.0) separate_planes(found, reduced.dofs);
   std::vector<Mode> modes;
@@ -350,8 +353,8 @@ Modes complex_modes(const System& system, int count) {
     return sparse_modes(system, known, count);
   }
   const FreeBody body = free_body(system);
-  return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(body)), system,
-                body, count);
+  return sorted(dense_quadratic_modes(system.M, system.D(), system.stiffness(), shift_for(body)),
+                system, body, count);
 }
 
 Modes complex_modes(const Assembler& assembler, double Omega, int count) {
@@ -398,14 +401,15 @@ Modes ModeFinder::at(double Omega, int count) const {
   const System at_speed = system(Omega);
   if (at_speed.size() >= dense_below) return sparse_modes(at_speed, state_->known, count);
   const FreeBody& body = state_->known.body;
-  return sorted(dense_quadratic_modes(at_speed.M, at_speed.D(), at_speed.K, shift_for(body)),
-                at_speed, body, count);
+  return sorted(
+      dense_quadratic_modes(at_speed.M, at_speed.D(), at_speed.stiffness(), shift_for(body)),
+      at_speed, body, count);
 }
 
 std::optional<Mode> ModeFinder::followed(const Mode& mode, double Omega, double frequency) const {
   const System beside = state_->at(Omega, frequency);
   EigenPair pair{mode.lambda, mode.shape};
-  if (!PairNewton(beside.M, beside.D(), beside.K).converge(pair, settled_step)) return {};
+  if (!PairNewton(beside.M, beside.D(), beside.stiffness()).converge(pair, settled_step)) return {};
   if (!oscillates(pair.lambda)) return {};
   return mode_of(pair.lambda, pair.q, beside.dofs);
 }
@@ -420,7 +424,7 @@ Modes ModeFinder::near(double Omega, double frequency, int count) const {
   const Complex center{off_axis * frequency, frequency};
   const double everywhere = std::numeric_limits<double>::infinity();
   DiscModes disc =
-      DiscSolver(at_speed.M, at_speed.D(), at_speed.K).around(center, everywhere, count);
+      DiscSolver(at_speed.M, at_speed.D(), at_speed.stiffness()).around(center, everywhere, count);
   if (disc.lambda.size() == 0) return all();
   QuadraticModes found{std::move(disc.lambda), std::move(disc.q)};
   for (Eigen::Index i = 0; i < found.lambda.size(); ++i) {

@@ -48,7 +48,8 @@ struct PairAtFrequency : EigenPair {
 std::optional<PairAtFrequency> solved(const System& system, double omega,
                                       const PairAtFrequency& start) {
   PairAtFrequency pair{{start.lambda, start.q}, omega};
-  if (!PairNewton(system.M, system.D(), system.K).converge(pair, settled_pair)) return std::nullopt;
+  if (!PairNewton(system.M, system.D(), system.stiffness()).converge(pair, settled_pair))
+    return std::nullopt;
   return pair;
 }
 

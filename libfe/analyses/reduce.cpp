@@ -65,10 +65,22 @@ Mat damped_basis(const Modes& modes, const Mat& rigid, const Sparse& M, int size
 ReducedSystem unreduced(const System& system) {
   const auto n = system.size();
   return {Mat::Identity(n, n), Mat(system.M), Mat(system.C), Mat(system.G),
-          Mat(system.K),       system.dofs,   system.Omega};
+          Mat(system.K),       Mat(system.H), system.dofs,   system.Omega};
 }
 
 }  // namespace
+
+ReducedSystem in_shapes(const System& system, const Mat& Phi) {
+  const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
+  return {Phi,
+          small(system.M),
+          small(system.C),
+          small(system.G),
+          small(system.K),
+          system.circulates() ? small(system.H) : Mat::Zero(Phi.cols(), Phi.cols()),
+          system.dofs,
+          system.Omega};
+}
 
 ReducedSystem project(const System& system, const Mat& basis) {
   if (basis.cols() == 0) throw NumericalError("the reduction has no shape: nothing oscillates");
@@ -84,10 +96,7 @@ ReducedSystem project(const System& system, const Mat& basis) {
     Phi.col(j).cwiseAbs().maxCoeff(&largest);
     if (Phi(largest, j) < 0.0) Phi.col(j) *= -1.0;
   }
-  const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
-  ReducedSystem r{Phi,         small(system.M), small(system.C), small(system.G), small(system.K),
-                  system.dofs, system.Omega};
-  return r;
+  return in_shapes(system, Phi);
 }
 
 ReductionError reduction_error(const System& system, const ReducedSystem& reduced,
@@ -101,7 +110,7 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
   };
   while (wanted < 2 * largest_basis && ends_within()) full = complex_modes(system, wanted *= 2);
   const QuadraticModes small = dense_quadratic_modes(
-      Mat(reduced.M).sparseView(), Mat(reduced.D()).sparseView(), Mat(reduced.K).sparseView(),
+      Mat(reduced.M).sparseView(), Mat(reduced.D()).sparseView(), reduced.stiffness().sparseView(),
       full.rigid_body.empty() ? 0.0 : -0.1 * std::max(1.0, band));
   for (const Mode& mode : full.oscillatory) {
     if (mode.frequency() > band) break;
@@ -119,7 +128,7 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
   for (Eigen::Index j = 0; j < count; ++j)
     rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
   const CMat small_rows = reduced.Phi.transpose().cast<Complex>() * rows;
-  DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
+  DynamicStiffness stiffness(system.M, system.C, system.G, system.K, system.H);
   double static_size = 0.0;  // of the receptance at the lowest frequency
   for (int s = 0; s < band_samples; ++s) {
     const double w = band * (s + 0.5) / band_samples;
@@ -131,7 +140,7 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
       if (q) exact.col(j) = rows.transpose() * *q;
     }
     if (!is_regular) continue;
-    const CMat Z = (reduced.K - w * w * reduced.M).cast<Complex>() +
+    const CMat Z = (reduced.stiffness() - w * w * reduced.M).cast<Complex>() +
                    Complex(0.0, w) * reduced.D().cast<Complex>();
     const CMat approximate = small_rows.transpose() * DenseLu<CMat>(Z).solve(small_rows);
     // at an antiresonance the static receptance is the measure, not the vanishing one

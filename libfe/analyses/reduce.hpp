@@ -30,6 +30,8 @@ struct Reduction {
   double tolerance = 1e-3;  ///< of eigenvalues in the band and of the receptance at `ports`
   double band = 0.0;        ///< highest frequency of interest [rad/s]; 0: twice the spin
 
+  bool operator==(const Reduction&) const = default;
+
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{
@@ -46,12 +48,15 @@ struct Reduction {
 /// Equations of motion in few coordinates, q = Phi eta.
 struct ReducedSystem {
   Mat Phi;  ///< n x m; Phi^T M Phi = I, Phi^T K Phi diagonal but for skew parts ("none": identity)
-  Mat M, C, G, K;  ///< m x m
-  DofMap dofs;     ///< of the system that was reduced
+  Mat M, C, G, K, H;  ///< m x m, as those of the System
+  DofMap dofs;        ///< of the system that was reduced
   double Omega = 0.0;
 
   int size() const { return static_cast<int>(M.rows()); }
+  /// C + Omega G.
   Mat D() const { return C + Omega * G; }
+  /// K + Omega H.
+  Mat stiffness() const { return K + Omega * H; }
 };
 
 /// How far a reduced system is from the full one.
@@ -100,6 +105,9 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
 /// Compares eigenvalues and receptances of a reduced system with those of the full one.
 ReductionError reduction_error(const System& system, const ReducedSystem& reduced,
                                const std::vector<Vec>& ports, double band);
+
+/// A system in given shapes, n x m: Phi^T M Phi and so on.
+ReducedSystem in_shapes(const System& system, const Mat& Phi);
 
 /// Projects a system on a basis, M-orthonormal after a small eigenproblem.
 ReducedSystem project(const System& system, const Mat& basis);

@@ -28,7 +28,7 @@ BearingLoad load_of(const Connection& c, const Assembler& assembler, const Syste
 }  // namespace
 
 void require_supports(const Assembler& assembler, double Omega, std::string_view what) {
-  if (is_supported(symmetric_part(assembler.uncondensed(Omega, 0.0).K))) return;
+  if (is_supported(symmetric_part(assembler.uncondensed(Omega, 0.0).stiffness()))) return;
   throw ModelError({}, "",
                    fmt::format("{} supports, but the rotor or a body is free to move: "
                                "add a [[bearing]] or a [[link]] that holds it",
@@ -39,7 +39,7 @@ StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
   require_supports(assembler, Omega, "the static sag needs");
   const System system = assembler.uncondensed(Omega, 0.0);
   const Vec load = static_load(assembler);
-  const SparseLu solver(system.K);
+  const SparseLu solver(system.stiffness());
   if (!solver.is_regular()) {
     throw NumericalError("the stiffness is singular at this speed");
   }

@@ -57,7 +57,7 @@ std::optional<CVec> UnbalanceSolver::at(double Omega) {
   if (Omega == 0.0 && s.steady.size() == 0) return CVec(CVec::Zero(dofs().full_size));
   if (!s.stiffness || s.assembler.depends_on_speed()) {
     const System system = s.assembler.uncondensed(Omega);
-    s.stiffness.emplace(system.M, system.C, system.G, system.K);
+    s.stiffness.emplace(system.M, system.C, system.G, system.K, system.H);
   }
   CVec force = Omega * Omega * s.force;
   if (s.steady.size() > 0) force += s.steady;
@@ -92,7 +92,7 @@ UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitat
     const double Omega = speeds[static_cast<std::size_t>(s)], w = load.frequency_at(Omega);
     if (!stiffness || changes) {
       const System system = assembler.uncondensed(Omega, w);
-      stiffness.emplace(system.M, system.C, system.G, system.K);
+      stiffness.emplace(system.M, system.C, system.G, system.K, system.H);
     }
     const auto q = stiffness->solve(w, Omega, force);
     const CVec full = q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan));

@@ -187,6 +187,18 @@ void check_probes(const Structure& structure) {
   }
 }
 
+/// Whether two structures have the same mesh and the same matrices.
+bool differ_in_loads_alone(const Structure& a, const Structure& b) {
+  // names all members: one more does not compile until it is compared here, or said to be a load
+  const auto& [shaft, disks, bodies, bearings, links, seals, linearized, unbalances, stations,
+               damping, gravity, layers, modal_damping, bow, forces, probes] = a;
+  const auto same_station = [](const Station* x, const Station* y) { return *x == *y; };
+  return std::ranges::equal(all_stations(a), all_stations(b), same_station) && shaft == b.shaft &&
+         layers == b.layers && disks == b.disks && bodies == b.bodies && bearings == b.bearings &&
+         links == b.links && seals == b.seals && damping == b.damping &&
+         modal_damping == b.modal_damping && linearized.empty() && b.linearized.empty();
+}
+
 /// Adds shaft, disks and bodies; internal functions of the shaft get the next numbers.
 void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Collector& to) {
   for (const MeshElement& element : mesh.elements) {
@@ -226,7 +238,7 @@ Assembler::Assembler(Structure structure)
   for (const auto& [kind, list] : structure_.connections()) {
     for (const Connection& c : list) {
       if (whirl::depends_on_speed(c.coefficients)) {
-        depends_on_speed_ = true;
+        tables_depend_on_speed_ = true;
         if (whirl::depends_on_whirl(c.coefficients)) depends_on_whirl_ = true;
       } else {
         collector.add(matrices(coefficients(c.coefficients, 0.0)),
@@ -235,7 +247,7 @@ Assembler::Assembler(Structure structure)
     }
   }
   fixed_ = {collector.M(n), collector.C(n), collector.G(n), collector.K(n), collector.H(n)};
-  if (fixed_.H.nonZeros() > 0 || !structure_.linearized.empty()) depends_on_speed_ = true;
+  if (!structure_.linearized.empty()) tables_depend_on_speed_ = true;
   if (!structure_.modal_damping.ratios.empty()) {
     // modes at rest, where films carry nothing; with the added mass of tables
     std::vector<LinearizedConnection> aside;
@@ -244,6 +256,14 @@ Assembler::Assembler(Structure structure)
     modal_ = modal_damping_matrix(structure_.modal_damping, at_rest, full(0.0, 0.0).M);
     std::swap(aside, structure_.linearized);
   }
+}
+
+std::optional<Assembler> Assembler::with_loads_of(const Structure& structure) const {
+  if (!differ_in_loads_alone(structure_, structure)) return std::nullopt;
+  check_probes(structure);
+  Assembler other = *this;
+  other.structure_ = structure;
+  return other;
 }
 
 Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
@@ -280,7 +300,7 @@ Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
 
 System Assembler::system_of(const FullMatrices& f, const Sparse& T, double Omega) const {
   System s{project(T, f.M), project(T, f.C), project(T, f.G), project(T, f.K), dofs_, Omega};
-  if (Omega != 0.0 && f.H.nonZeros() > 0) s.K += Omega * project(T, f.H);
+  s.H = f.H.nonZeros() > 0 ? project(T, f.H) : Sparse(s.size(), s.size());
   s.dofs.T = T;
   return s;
 }

@@ -1,24 +1,31 @@
 #pragma once
 /// From a structure to its sparse global matrices.
 
+#include <optional>
+
 #include "libfe/mesh/dofs.hpp"
 #include "libfe/mesh/mesh.hpp"
 #include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 
-/// Linear equations of motion at one speed: M q'' + (C + Omega G) q' + K q = f.
+/// Linear equations of motion: M q'' + (C + Omega G) q' + (K + Omega H) q = f.
 ///
-/// K contains the circulatory part of damping that rotates with the shaft; G is skew; M, C without
-/// Omega G, and K need not be symmetric where bearings are not.
+/// G is gyroscopic and skew; H is circulatory and skew, of damping that rotates with the shaft. M,
+/// C and K need not be symmetric where bearings are not; they may hold for the speed Omega alone,
+/// see Assembler::tables_depend_on_speed.
 struct System {
   Sparse M, C, G, K;
   DofMap dofs;
   double Omega = 0.0;  ///< [rad/s]
+  Sparse H{};          ///< empty: nothing rotates that damps
 
   int size() const { return static_cast<int>(M.rows()); }
+  bool circulates() const { return H.nonZeros() > 0; }
   /// C + Omega G.
   Sparse D() const { return C + Omega * G; }
+  /// K + Omega H.
+  Sparse stiffness() const { return circulates() ? Sparse(K + Omega * H) : K; }
 };
 
 /// Assembles one structure at any number of speeds.
@@ -30,14 +37,21 @@ class Assembler {
   ///                     computed
   explicit Assembler(Structure structure);
 
+  /// The same for a structure that differs in its loads (unbalances, bow, gravity, forces) and in
+  /// what probes read, but neither in where these are nor in anything else; nothing for another
+  /// structure.
+  std::optional<Assembler> with_loads_of(const Structure& structure) const;
+
   const Structure& structure() const { return structure_; }
   const Mesh& mesh() const { return mesh_; }
   /// Of the coordinates that supports leave, nothing condensed.
   const DofMap& dofs() const { return dofs_; }
   Point point(const Station& station) const { return resolve(station, structure_, mesh_); }
 
-  /// Whether M, K or C change with speed, beyond Omega G (tables, films, rotating damping).
-  bool depends_on_speed() const { return depends_on_speed_; }
+  /// Whether M, C or K change with speed (tables, films).
+  bool tables_depend_on_speed() const { return tables_depend_on_speed_; }
+  /// Whether the equations do beyond Omega G, by these or by damping that rotates.
+  bool depends_on_speed() const { return tables_depend_on_speed_ || fixed_.H.nonZeros() > 0; }
   /// Whether they change with the frequency of a motion, too.
   bool depends_on_whirl() const { return depends_on_whirl_; }
 
@@ -95,7 +109,7 @@ class Assembler {
   FullMatrices fixed_;  // all that does not depend on speed
   Sparse modal_;        // damping of modes at rest; empty: none
   Sparse weighing_;     // inertia that has weight, of the full vector
-  bool depends_on_speed_ = false;
+  bool tables_depend_on_speed_ = false;
   bool depends_on_whirl_ = false;
 };
 

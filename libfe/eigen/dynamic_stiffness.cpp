@@ -4,10 +4,10 @@
 
 namespace whirl::inline fe {
 
-/// The four matrices on one common pattern: assembly at a frequency is one pass over values.
+/// All matrices on one common pattern: assembly at a frequency is one pass over values.
 struct DynamicStiffness::State {
   CSparse A;
-  Vec M, C, G, K;  // values of each matrix at the entries of A
+  Vec M, C, G, K, H;  // values of each matrix at the entries of A; H: empty where it is zero
   ComplexSparseLu solver;
 };
 
@@ -22,14 +22,16 @@ Vec values_on(const Sparse& pattern, const Sparse& B) {
 }  // namespace
 
 DynamicStiffness::DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& G,
-                                   const Sparse& K) {
+                                   const Sparse& K, const Sparse& H) {
+  const bool circulates = H.nonZeros() > 0;
   Sparse pattern = K + M + C + G;
+  if (circulates) pattern = Sparse(pattern + H);
   pattern.makeCompressed();
   CSparse A = pattern.cast<Complex>();
   ComplexSparseLu solver(A);
-  state_ = std::make_unique<State>(State{std::move(A), values_on(pattern, M), values_on(pattern, C),
-                                         values_on(pattern, G), values_on(pattern, K),
-                                         std::move(solver)});
+  state_ = std::make_unique<State>(
+      State{std::move(A), values_on(pattern, M), values_on(pattern, C), values_on(pattern, G),
+            values_on(pattern, K), circulates ? values_on(pattern, H) : Vec{}, std::move(solver)});
 }
 
 DynamicStiffness::~DynamicStiffness() = default;
@@ -43,6 +45,7 @@ bool DynamicStiffness::factorize(Complex lambda, double Omega) {
   for (Eigen::Index i = 0; i < s.K.size(); ++i) {
     value[i] = s.K(i) + square * s.M(i) + lambda * (s.C(i) + Omega * s.G(i));
   }
+  for (Eigen::Index i = 0; i < s.H.size(); ++i) value[i] += Omega * s.H(i);
   return s.solver.factorize(s.A);
 }
 

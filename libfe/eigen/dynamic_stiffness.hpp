@@ -7,10 +7,11 @@
 
 namespace whirl::inline fe {
 
-/// Solves (K - w^2 M + i w (C + Omega G)) q = f for many frequencies of one system.
+/// Solves (K + Omega H - w^2 M + i w (C + Omega G)) q = f for many frequencies of one system.
 class DynamicStiffness {
  public:
-  DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K);
+  DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K,
+                   const Sparse& H);
   ~DynamicStiffness();
   DynamicStiffness(DynamicStiffness&&) noexcept;
   DynamicStiffness& operator=(DynamicStiffness&&) noexcept;

@@ -10,6 +10,7 @@ namespace whirl::inline fe {
 /// Improves eigenpairs of (lambda^2 M + lambda D + K) q = 0 that miss the stated accuracy.
 class Refinement {
  public:
+  /// Keeps references to all three.
   Refinement(const Sparse& M, const Sparse& D, const Sparse& K);
 
   /// |(lambda^2 M + lambda D + K) q| / ((|lambda|^2 |M| + |lambda| |D| + |K|) |q|), with the

@@ -59,7 +59,7 @@ class CoupledRotor {
 
   /// Whether it has a place to come back to.
   bool is_held() const {
-    return is_supported(symmetric_part(assembler_.uncondensed(Omega_, 0.0).K));
+    return is_supported(symmetric_part(assembler_.uncondensed(Omega_, 0.0).stiffness()));
   }
 
   /// 2 x 2 receptance (x, y) of the station [m/N] for motions e^(s t), s = w (i + tilt); NaN where
@@ -67,7 +67,7 @@ class CoupledRotor {
   Eigen::Matrix2cd receptance(double w, double tilt) {
     if (!stiffness_ || assembler_.depends_on_whirl()) {
       const System system = assembler_.uncondensed(Omega_, w);
-      stiffness_.emplace(system.M, system.C, system.G, system.K);
+      stiffness_.emplace(system.M, system.C, system.G, system.K, system.H);
     }
     const DofMap& dofs = assembler_.dofs();
     const Point point = assembler_.point(at_);

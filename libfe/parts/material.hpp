@@ -17,6 +17,8 @@ struct Material {
   double eta =
       0.0;  ///< internal (rotating, viscous) damping: stress = E (strain + eta strain') [s]
 
+  bool operator==(const Material&) const = default;
+
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{

@@ -20,6 +20,7 @@ struct Section {
     const double o2 = outer * outer, i2 = inner * inner;
     return std::numbers::pi / 64.0 * (o2 * o2 - i2 * i2);
   }
+  bool operator==(const Section&) const = default;
 };
 
 /// Section at a fraction s of the way from one to another, diameters linear between.
@@ -49,6 +50,7 @@ constexpr auto choices(ShearFormula) {
 struct ShearCoefficient {
   ShearFormula formula = ShearFormula::cowper;
   double value = 0.0;  ///< used if formula is `given`
+  bool operator==(const ShearCoefficient&) const = default;
 };
 
 /// Shear coefficient of a circular section.

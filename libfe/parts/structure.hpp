@@ -25,12 +25,15 @@ struct Station {
   std::string body;  ///< name of a body                                   (Kind::body)
   Where where{};
   std::string key{};  ///< path of the entry in the model file, for messages
+  bool operator==(const Station&) const = default;
 };
 
 /// Damping in proportion to mass and stiffness: C = mass M + stiffness K.
 struct Rayleigh {
   double mass = 0.0;       ///< [1/s]
   double stiffness = 0.0;  ///< [s]
+
+  bool operator==(const Rayleigh&) const = default;
 
   static constexpr auto fields() {
     using enum Range;
@@ -56,6 +59,8 @@ struct Segment {
 
   /// Section at a fraction s of the length, 0 <= s <= 1.
   Section at(double s) const { return between(left, right, s); }
+
+  bool operator==(const Segment&) const = default;
 
   static constexpr auto fields() {
     using enum Range;
@@ -97,6 +102,8 @@ struct Layer {
   Rayleigh damping{};  ///< of this layer, at rest
   Where where{};
 
+  bool operator==(const Layer&) const = default;
+
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{optional("carries", &Layer::carries, "", any, "what of the layer counts"),
@@ -112,6 +119,8 @@ struct Disk {
   double Id = 0.0;  ///< diametral moment of inertia [kg.m^2]
   double Ip = 0.0;  ///< polar moment of inertia [kg.m^2]
   double outer_diameter = 0.0, inner_diameter = 0.0, width = 0.0;  ///< for pictures [m]; 0: unknown
+
+  bool operator==(const Disk&) const = default;
 
   static constexpr auto fields() {
     using enum Range;
@@ -133,6 +142,7 @@ struct PlanarMass {
 
   constexpr PlanarMass(double both = 0.0) : x(both), y(both) {}
   constexpr PlanarMass(double along_x, double along_y) : x(along_x), y(along_y) {}
+  bool operator==(const PlanarMass&) const = default;
 };
 
 /// A lumped mass: a stator, a pedestal, the mass of a Jeffcott rotor.
@@ -143,6 +153,8 @@ struct Body {
   bool tilts = false;         ///< has theta_x, theta_y
   double Id = 0.0, Ip = 0.0;  ///< moments of inertia [kg.m^2], if it tilts
   Where where{};
+
+  bool operator==(const Body&) const = default;
 
   static constexpr auto fields() {
     using enum Range;
@@ -160,6 +172,7 @@ struct Unbalance {
   Station at;
   double moment = 0.0;  ///< mass times eccentricity [kg.m]
   double phase = 0.0;   ///< angle from +x at t = 0 [rad]
+  bool operator==(const Unbalance&) const = default;
 };
 
 /// What a load is, and where it points.
@@ -197,6 +210,7 @@ struct Force {
   bool is_constant() const { return order == 0.0 && frequency == 0.0; }
   /// Whether it has the frequency of unbalance.
   bool is_synchronous() const { return order == 1.0; }
+  bool operator==(const Force&) const = default;
 };
 
 /// A displacement probe: it reads the displacement of its station along a direction a across the
@@ -222,6 +236,8 @@ struct Probe {
                      of(3) * (face_radius * std::cos(angle)));
   }
 
+  bool operator==(const Probe&) const = default;
+
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{
@@ -241,6 +257,8 @@ struct Connection {
   bool is_clamped = false;  ///< and the tilts too
   Where where{};
   double clearance = 0.0;  ///< of a bearing or seal, radial [m]; 0: not told
+
+  bool operator==(const Connection&) const = default;
 
   static constexpr auto fields() {
     return std::tuple{alternative(
@@ -265,12 +283,14 @@ struct LinearizedConnection {
 struct Bow {
   std::vector<double> z;     ///< positions, ascending [m]; empty: the shaft is straight
   std::vector<double> x, y;  ///< deflection there [m]
+  bool operator==(const Bow&) const = default;
 };
 
 /// Damping ratios of modes at rest, beside all other damping.
 struct ModalDamping {
   std::vector<double> ratios;  ///< of the lowest modes that deform; empty: none
   bool is_common = false;      ///< one ratio stands for all modes, up to most_damped_modes
+  bool operator==(const ModalDamping&) const = default;
 };
 /// That one common ratio damps.
 inline constexpr int most_damped_modes = 100;

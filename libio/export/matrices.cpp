@@ -24,11 +24,11 @@ constexpr const char* matlab_head = "MATLAB 5.0 MAT-file, written by whirl";
 
 struct NamedMatrix {
   const char* name;
-  const Sparse* values;
+  Sparse values;
 };
 
 std::array<NamedMatrix, 4> matrices_of(const System& system) {
-  return {{{"M", &system.M}, {"C", &system.C}, {"G", &system.G}, {"K", &system.K}}};
+  return {{{"M", system.M}, {"C", system.C}, {"G", system.G}, {"K", system.stiffness()}}};
 }
 
 std::string market_text(const Sparse& A) {
@@ -105,7 +105,7 @@ std::vector<fs::path> write_matrix_market(const fs::path& stem, const Model& mod
   std::vector<fs::path> files;
   for (const auto& [name, values] : matrices_of(system)) {
     files.emplace_back(fmt::format("{}_{}.mtx", stem.string(), name));
-    replace_file(files.back(), market_text(*values),
+    replace_file(files.back(), market_text(values),
                  replaces_own(files.back(), mtx_head, replaces));
   }
   const std::vector<std::string> names = coordinate_names(system.dofs, model);
@@ -126,7 +126,7 @@ std::vector<fs::path> write_matlab(const fs::path& stem, const Model& model,
   const fs::path place = stem.string() + ".mat";
   std::vector<MatlabVariable> variables;
   for (const auto& [name, values] : matrices_of(system)) {
-    variables.push_back(sparse_variable(name, *values));
+    variables.push_back(sparse_variable(name, values));
   }
   variables.push_back(matlab_numbers("Omega", {Omega}, 1, 1));
   variables.push_back(matlab_texts("dofs", coordinate_names(system.dofs, model)));

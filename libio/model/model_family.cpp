@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "libdyn/system/film_equilibrium.hpp"
-#include "libdyn/system/scene_at_speed.hpp"
+#include "libdyn/system/scene_beside.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
 #include "libio/model/model_table.hpp"
@@ -50,7 +50,7 @@ struct ModelFamily::State {
   std::vector<ParameterAxis> axes;
   ConfigNode root;
   NamedFiles files;         ///< none: the model has its tables in it
-  bool is_light = false;    ///< no value changes the rotor
+  bool is_light = false;    ///< no value is one of the rotor's tables
   bool same_modes = false;  ///< nor a film, about whose equilibrium modes are
 
   struct Known {
@@ -58,7 +58,7 @@ struct ModelFamily::State {
     std::shared_ptr<const Scene> scene;
   };
   std::mutex mutex;
-  std::shared_ptr<const Scene> foundation;  ///< assembled and reduced, with some contacts
+  std::shared_ptr<const Scene> foundation;  ///< of the last member that was assembled or reduced
   std::deque<Known> last;
   struct KnownModes {
     double Omega = 0.0;
@@ -106,25 +106,25 @@ Model ModelFamily::model(std::span<const double> values) const {
 }
 
 std::shared_ptr<const Scene> ModelFamily::scene(const Model& member) const {
-  const auto whole = [&] {
-    return std::make_shared<const Scene>(make_scene(member, ReductionEstimate::no));
+  const auto made_on = [&](Assembler assembler) {
+    return std::make_shared<const Scene>(
+        make_scene(std::move(assembler), member, ReductionEstimate::no));
   };
-  if (!state_->is_light || !same_ports(member, state_->base)) return whole();
+  const bool is_comparable =
+      member.reduction == state_->base.reduction && same_ports(member, state_->base);
+  if (!is_comparable) return made_on(Assembler(member.structure));
   std::shared_ptr<const Scene> on;
   {
     const std::lock_guard lock(state_->mutex);
     on = state_->foundation;
   }
-  if (on && on->system.Omega == member.speed) {
-    return std::make_shared<const Scene>(with_contacts(*on, member));
-  }
   if (on) {
-    if (auto moved = scene_at_speed(*on, member)) {
-      return std::make_shared<const Scene>(*std::move(moved));
+    if (auto beside = scene_beside(*on, member)) {
+      return std::make_shared<const Scene>(*std::move(beside));
     }
   }
-  on = on ? std::make_shared<const Scene>(make_scene(on->assembler, member, ReductionEstimate::no))
-          : whole();
+  auto assembler = on ? on->assembler.with_loads_of(member.structure) : std::nullopt;
+  on = made_on(assembler ? *std::move(assembler) : Assembler(member.structure));
   const std::lock_guard lock(state_->mutex);
   state_->foundation = on;
   return on;

@@ -13,9 +13,10 @@
 namespace whirl::inline io {
 
 /// The text is read once, and for a value only those parts are made again that the value changes: a
-/// contact's stiffness or a film's viscosity needs no new mesh and no new reduction, a speed no new
-/// mesh, and no new reduction where neither matrices nor basis depend on the speed. Members are to the last bit what
-/// parse_model and make_scene make of the same values. Several threads may ask a family at once.
+/// contact's stiffness, a film's viscosity or an unbalance needs no new mesh and no new reduction,
+/// a speed no new mesh, and no new reduction where neither matrices nor shapes depend on the speed.
+/// Members are to the last bit what parse_model and make_scene make of the same values. Several
+/// threads may ask a family at once.
 class ModelFamily {
  public:
   /// @param base  as it was read: its `source` is the text that values are set in

@@ -86,9 +86,8 @@ TEST(Collocation, IsExactWithoutContact) {
     test::run(scene, seen, 3, {.tolerance = 1e-12, .method = collocation}, [&](const Step& step) {
       for (double s = 0.0; s <= 1.0; s += 0.125) {
         step.at(s, y.data());
-        const Vec2 x = motion.at(
-            (static_cast<double>(step.revolution) + (step.phase + s * step.turn) / (2.0 * pi)) *
-            period);
+        const Vec2 x =
+            motion.at((static_cast<double>(step.revolution) + step.angle(s) / (2.0 * pi)) * period);
         worst = std::max(
             {worst, std::abs(y(0) - x(0)) / c, std::abs(y(2) - x(1)) / (c * motion.p.Omega)});
       }

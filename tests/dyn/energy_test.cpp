@@ -73,8 +73,7 @@ TEST(Energy, IsLostToFrictionAsItsWorkSays) {
           if (!step.contacts[0].in_touch()) return true;
           for (Eigen::Index i = 0; i < gauss.x.size(); ++i) {
             step.at(gauss.x(i), y.data());
-            scene.contacts.forces(step.phase + gauss.x(i) * step.turn, y.data(), step.contacts,
-                                  forces);
+            scene.contacts.forces(step.angle(gauss.x(i)), y.data(), step.contacts, forces);
             const double weight = gauss.w(i) * step.h * forces[0].friction;
             lost += weight * forces[0].slip;
             given += weight * scene.contacts.contacts()[0].rim_speed;
@@ -112,7 +111,7 @@ TEST(DampedContact, NeverPulls) {
     before = now;
     for (double s = 0.0; s <= 1.0; s += 0.125) {
       step.at(s, y.data());
-      scene.contacts.forces(step.phase + s * step.turn, y.data(), step.contacts, forces);
+      scene.contacts.forces(step.angle(s), y.data(), step.contacts, forces);
       if (now == Touch::sliding) {
         largest = std::max(largest, forces[0].normal);
         smallest = std::min(smallest, forces[0].normal);

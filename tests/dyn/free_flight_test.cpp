@@ -170,7 +170,7 @@ TEST(FreeFlight, GivesStepsToAnObserver) {
     EXPECT_TRUE(step.revolution == last || step.revolution == last + 1);
     EXPECT_NEAR(step.phase, step.revolution == last ? phase : 0.0, 1e-12);
     last = step.revolution;
-    phase = step.phase + step.turn;
+    phase = step.angle(1.0);
     return true;
   });
   EXPECT_EQ(last, 49);

@@ -215,7 +215,7 @@ TEST(DampedHertz, LetsGoWhereItWouldPull) {
       before = now;
       for (const double s : {0.0, 0.3, 0.7, 1.0}) {
         step.at(s, y.data());
-        scene.contacts.forces(step.phase + s * step.turn, y.data(), step.contacts, forces);
+        scene.contacts.forces(step.angle(s), y.data(), step.contacts, forces);
         if (now == Touch::apart) continue;
         EXPECT_GT(forces[0].depth, -1e-12);
         const double sign = now == Touch::receding ? -1.0 : 1.0;

@@ -69,7 +69,7 @@ TEST_P(EveryMethod, GivesStepsThatJoin) {
         EXPECT_LT(distance(scene.contacts, y, z), interpolation);
         step.at(1.0, y.data());
         revolution = step.revolution;
-        phase = step.phase + step.turn;
+        phase = step.angle(1.0);
         return true;
       });
   EXPECT_EQ(result.outcome, Outcome::reached_end);

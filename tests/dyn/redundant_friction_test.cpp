@@ -128,8 +128,7 @@ TEST(RedundantFriction, OfUnequalContactsIsTheSameInEveryMethodAndKeepsTheEnergy
           if (both_stick) stuck += step.h;
           for (Eigen::Index i = 0; i < gauss.x.size(); ++i) {
             step.at(gauss.x(i), y.data());
-            scene.contacts.forces(step.phase + gauss.x(i) * step.turn, y.data(), step.contacts,
-                                  forces);
+            scene.contacts.forces(step.angle(gauss.x(i)), y.data(), step.contacts, forces);
             for (std::size_t c = 0; c < 2; ++c) {
               if (!step.contacts[c].in_touch()) continue;
               const double weight = gauss.w(i) * step.h * forces[c].friction;

@@ -61,7 +61,7 @@ TEST(Rk4, HasOrderFourForASmoothMotion) {
               [&](const Step& step) {
                 for (const double s : {0.2, 0.5, 0.7}) {
                   step.at(s, y.data());
-                  const double t = (step.phase + s * step.turn) / w;
+                  const double t = step.angle(s) / w;
                   worst = std::max({worst, std::abs(y(0) / a - std::cos(w * t)),
                                     std::abs(y(2) / (a * w) + std::sin(w * t))});
                 }

@@ -163,7 +163,7 @@ TEST(StickLimit, IsReachedWheneverStickingEnds) {
           for (const double s : {0.0, 0.5, 1.0}) {
             if (!sticks) break;
             step.at(s, y.data());
-            scene.contacts.forces(step.phase + s * step.turn, y.data(), step.contacts, f);
+            scene.contacts.forces(step.angle(s), y.data(), step.contacts, f);
             share = std::abs(f[0].friction) / (p.mu * f[0].normal);
             largest = std::max(largest, share);
           }

@@ -60,8 +60,11 @@ TEST(Step, HasAPhaseThatPassesEvenlyWithinItsRevolution) {
   const Step step = example();
   for (const double s : {0.0, 0.5, 1.0}) {
     EXPECT_NEAR(step.instant(s).phase, 0.5 + 1.2 * s, rounding);
+    EXPECT_NEAR(step.after_turn(1.2 * s), s, rounding);
     EXPECT_EQ(step.instant(s).revolution, 7);
   }
+  EXPECT_EQ(step.after_turn(-0.1), 0.0);
+  EXPECT_EQ(step.after_turn(1.3), 1.0);
   MotionState state;
   state.revolution = 3'000'000'000L;
   state.phase = 1.5;

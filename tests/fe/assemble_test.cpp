@@ -64,6 +64,58 @@ TEST(Assemble, MatricesAreSymmetricAndGyroscopicsSkew) {
   }
 }
 
+// Damping that rotates with the shaft has a matrix of its own, the same at every speed.
+TEST(Assemble, CirculatoryStiffnessIsSkewAndGrowsWithTheSpeed) {
+  std::mt19937 random(1);
+  Structure rotor = test::random_rotor(random, {.elements = 8});
+  EXPECT_FALSE(assemble(rotor, 300.0).circulates());
+  for (Segment& segment : rotor.shaft) segment.material.eta = 1e-5;
+  const Assembler assembler(rotor);
+  EXPECT_TRUE(assembler.depends_on_speed());
+  EXPECT_FALSE(assembler.tables_depend_on_speed());
+  const System rest = assembler.at(0.0), s = assembler.at(300.0);
+  EXPECT_TRUE(s.circulates());
+  EXPECT_EQ(Mat(s.H), Mat(rest.H));
+  EXPECT_EQ(Mat(s.K), Mat(rest.K));
+  EXPECT_EQ(Mat(rest.stiffness()), Mat(rest.K));
+  EXPECT_LE(largest(Mat(s.H) + Mat(s.H).transpose()), rounding * largest(s.H));
+  EXPECT_TRUE(Mat(s.stiffness()).isApprox(Mat(s.K) + 300.0 * Mat(s.H), rounding));
+}
+
+// What loads a rotor does not change its mesh and its matrices: an assembler goes on with others at
+// the same stations, and with nothing else.
+TEST(Assemble, TakesOtherLoads) {
+  std::mt19937 random(1);
+  Structure rotor = test::random_rotor(random, {.elements = 8});
+  rotor.unbalances = {{.at = {.kind = Station::Kind::node, .node = 2}, .moment = 1e-4}};
+  const Assembler assembler(rotor);
+  Structure other = rotor;
+  other.unbalances[0].moment = 2e-4;
+  other.gravity = 9.81;
+  const auto loaded = assembler.with_loads_of(other);
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->unbalance(), Assembler(other).unbalance());
+  EXPECT_EQ(loaded->unbalance(), 2.0 * assembler.unbalance());
+  EXPECT_EQ(loaded->gravity_load(), Assembler(other).gravity_load());
+  EXPECT_EQ(Mat(loaded->at(300.0).K), Mat(Assembler(other).at(300.0).K));
+
+  const auto is_refused = [&](auto change) {
+    Structure changed = rotor;
+    change(changed);
+    return !assembler.with_loads_of(changed);
+  };
+  EXPECT_TRUE(is_refused([](Structure& s) { s.unbalances[0].at.node = 3; }));
+  EXPECT_TRUE(is_refused([](Structure& s) { s.unbalances.push_back(s.unbalances[0]); }));
+  EXPECT_TRUE(is_refused([](Structure& s) { s.shaft[0].length *= 1.1; }));
+  EXPECT_TRUE(is_refused([](Structure& s) { s.shaft[0].material.E *= 1.1; }));
+  EXPECT_TRUE(is_refused([](Structure& s) { s.disks[0].m *= 1.1; }));
+  EXPECT_TRUE(is_refused([](Structure& s) { s.damping.mass += 0.1; }));
+  EXPECT_TRUE(is_refused([](Structure& s) { s.modal_damping.ratios = {0.01}; }));
+  EXPECT_TRUE(is_refused([](Structure& s) {
+    s.bearings[0].coefficients = constant_bearing({.K = 3e6 * Mat2::Identity()});
+  }));
+}
+
 // Cross-coupled bearings make K skew in part: nothing symmetrizes it.
 TEST(Assemble, CrossCoupledBearingsKeepTheirSigns) {
   BearingCoefficients c;
@@ -239,7 +291,7 @@ TEST(MasslessShaft, IsCondensedWithInternalDamping) {
   ASSERT_EQ(s.size(), 2);
   Mat2 K;
   K << k, Omega * eta * k, -Omega * eta * k, k;
-  EXPECT_LT(largest(Mat(s.K) - K), solves * k);
+  EXPECT_LT(largest(Mat(s.stiffness()) - K), solves * k);
   EXPECT_LT(largest(Mat(s.C) - eta * k * Mat2::Identity()), solves * eta * k);
 }
 

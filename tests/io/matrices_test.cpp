@@ -101,7 +101,7 @@ TEST_F(Matrices, OfMatrixMarketAreThoseOfTheRotor) {
   EXPECT_EQ(market(folder / "rotor_M.mtx"), Mat(system.M));
   EXPECT_EQ(market(folder / "rotor_C.mtx"), Mat(system.C));
   EXPECT_EQ(market(folder / "rotor_G.mtx"), Mat(system.G));
-  EXPECT_EQ(market(folder / "rotor_K.mtx"), Mat(system.K));
+  EXPECT_EQ(market(folder / "rotor_K.mtx"), Mat(system.stiffness()));
   std::ifstream table(folder / "rotor_dofs.csv");
   std::string head, first;
   std::getline(table, head);
@@ -121,8 +121,9 @@ TEST_F(Matrices, OfMatlabAreThoseOfTheRotor) {
   write_matlab(folder / "rotor", model, assembler, Omega, Replaces::own_pictures);
   mat_t* file = Mat_Open((folder / "rotor.mat").c_str(), MAT_ACC_RDONLY);
   ASSERT_NE(file, nullptr);
+  const Sparse K = system.stiffness();
   const std::pair<const char*, const Sparse*> matrices[] = {
-      {"M", &system.M}, {"C", &system.C}, {"G", &system.G}, {"K", &system.K}};
+      {"M", &system.M}, {"C", &system.C}, {"G", &system.G}, {"K", &K}};
   for (const auto& [name, expected] : matrices) EXPECT_EQ(matlab(file, name), Mat(*expected));
   matvar_t* speed = Mat_VarRead(file, "Omega");
   EXPECT_EQ(*static_cast<const double*>(speed->data), Omega);
@@ -159,8 +160,9 @@ stiffness = 1e7
   export_scene(source, {.format = export_format("mat"), .stem = folder / "film"});
   mat_t* file = Mat_Open((folder / "film.mat").c_str(), MAT_ACC_RDONLY);
   ASSERT_NE(file, nullptr);
+  const Sparse K = linear.stiffness();
   const std::pair<const char*, const Sparse*> matrices[] = {
-      {"M", &linear.M}, {"C", &linear.C}, {"G", &linear.G}, {"K", &linear.K}};
+      {"M", &linear.M}, {"C", &linear.C}, {"G", &linear.G}, {"K", &K}};
   for (const auto& [name, expected] : matrices) {
     EXPECT_EQ(market(folder / ("film_" + std::string(name) + ".mtx")), Mat(*expected)) << name;
     EXPECT_EQ(matlab(file, name), Mat(*expected)) << name;
@@ -169,10 +171,10 @@ stiffness = 1e7
   EXPECT_EQ(Mat(linear.M), Mat(system.M));
   const RunningFilm journal = FilmEquilibrium(on_film).at(Omega)->films.at(0);
   // node 1 is clamped, node 2 has the first four coordinates
-  const Mat K = Mat(linear.K - system.K).block(4, 4, 2, 2) - journal.stiffness;
+  const Mat added = Mat(linear.K - system.K).block(4, 4, 2, 2) - journal.stiffness;
   const Mat C = Mat(linear.C - system.C).block(4, 4, 2, 2) - journal.damping;
   constexpr double rounding = 1e-14;
-  EXPECT_LE(K.norm(), rounding * linear.K.norm());
+  EXPECT_LE(added.norm(), rounding * linear.K.norm());
   EXPECT_LE(C.norm(), rounding * linear.C.norm());
   EXPECT_GT(journal.stiffness.norm(), 1e6 * rounding * linear.K.norm());
   EXPECT_GT(journal.damping.norm(), 1e6 * rounding * linear.C.norm());

@@ -70,6 +70,47 @@ TEST(ModelFamily, MembersAreThoseOfTheWholeModel) {
   }
 }
 
+// Loads at the same stations: their sizes and angles need neither a new mesh nor, but for a base's
+// acceleration and a bow, new shapes.
+TEST(ModelFamily, LoadsAreThoseOfTheWholeModel) {
+  const std::string with_loads = read_model(two_disk).source + R"(
+[[force]]
+name = "pull"
+node = 5
+force = "20 N"
+angle = "30 deg"
+[[force]]
+name = "pump"
+node = 5
+force = "20 N"
+frequency = "40 Hz"
+[[force]]
+name = "ground"
+base_acceleration = "0.1 m/s^2"
+frequency = "30 Hz"
+[bow]
+table = """
+position [mm], deflection [um], angle [deg]
+0, 0, 0
+250, 20, 40
+500, 0, 0
+"""
+)";
+  std::string tolerant = with_loads;  // as many modes as the highest frequency asks for
+  const std::size_t modes = tolerant.find("modes  = 8");
+  ASSERT_NE(modes, std::string::npos);
+  tolerant.erase(modes, std::string("modes  = 8").size());
+  for (const Model& base : {parse_model(with_loads), parse_model(tolerant)}) {
+    for (const char* text :
+         {"disk.1.unbalance.offset=0.5,0.7 mm", "disk.1.unbalance.phase=0,90 deg",
+          "gravity=0,9.81 m/s^2", "force.pull.force=10,30 N", "force.pull.node=4,5",
+          "force.pump.frequency=40,400 Hz", "force.ground.base_acceleration=0.1,0.2 m/s^2"}) {
+      const auto seen = members_beside_whole_models(base, text);
+      EXPECT_NE(seen.front(), seen.back()) << text;
+    }
+  }
+}
+
 // Values of films, and a spring of theirs, which is one of the rotor's bearings; modes for the
 // start are those about the equilibrium on the films.
 TEST(ModelFamily, FilmsAreThoseOfTheWholeModel) {
@@ -158,8 +199,8 @@ TEST(ModelFamily, SeveralParametersGoTogether) {
   }
 }
 
-// Other speeds take over what does not depend on them: nothing of damped modes, of a tolerance, and
-// of damping that turns with the shaft.
+// Other speeds take over what does not depend on them: nothing of damped modes and of a tolerance,
+// and of damping that turns with the shaft its matrix alone.
 TEST(ModelFamily, SpeedsAreThoseOfTheWholeModel) {
   const std::string models = WHIRL_SOURCE_DIR "/models/";
   const auto base_of = [&](const std::string& name, const std::vector<std::string>& sets) {

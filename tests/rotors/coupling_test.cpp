@@ -36,10 +36,12 @@ double growth(const Structure& structure, double Omega, const Station& at, doubl
   const System system = assemble(s, Omega);
   const Sparse D = system.D();
   double most = -INFINITY;
-  for (const Eigenpair& found : test::qz_eigenpairs(Mat(system.M), Mat(D), Mat(system.K))) {
+  for (const Eigenpair& found :
+       test::qz_eigenpairs(Mat(system.M), Mat(D), Mat(system.stiffness()))) {
     if (found.lambda.real() < -rough * std::abs(found.lambda)) continue;
-    const auto& [l, q] = test::polished(system.M, D, system.K, found);
-    const CVec inertia = l * l * (system.M * q), damping = l * (D * q), elastic = system.K * q;
+    const auto& [l, q] = test::polished(system.M, D, system.stiffness(), found);
+    const CVec inertia = l * l * (system.M * q), damping = l * (D * q),
+               elastic = system.stiffness() * q;
     const double parts = inertia.norm() + damping.norm() + elastic.norm();
     if ((inertia + damping + elastic).norm() > balanced * parts) continue;
     most = std::max(most, l.real() / std::abs(l));

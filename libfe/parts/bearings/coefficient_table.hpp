@@ -24,6 +24,7 @@ struct CoefficientTable {
 
   /// The same of a table that does not know whirl frequencies, or where they are the speed.
   BearingCoefficients at(double Omega) const { return at(Omega, Omega); }
+  bool operator==(const CoefficientTable&) const = default;
 };
 
 }  // namespace whirl::inline fe

@@ -24,6 +24,7 @@ struct BearingCoefficients {
     using Self = BearingCoefficients;
     return std::array{&Self::K, &Self::C, &Self::Kt, &Self::Ct, &Self::M};
   }
+  bool operator==(const BearingCoefficients&) const = default;
 };
 
 }  // namespace whirl::inline fe

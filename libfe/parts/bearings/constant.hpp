@@ -20,6 +20,8 @@ struct ConstantBearing {
   Mat2 Ct = Mat2::Zero();  ///< tilt damping [N.m.s/rad]
   Mat2 M = Mat2::Zero();   ///< added mass [kg]
 
+  bool operator==(const ConstantBearing&) const = default;
+
   static constexpr auto fields() {
     using enum Range;
     constexpr std::string_view lateral = "one value, or xx, yy, xy, yx";

@@ -17,6 +17,8 @@ struct TableBearing {
   CoefficientTable table;
   Interpolation interpolation = Interpolation::linear;
 
+  bool operator==(const TableBearing&) const = default;
+
   static constexpr auto fields() {
     return std::tuple{
         required("table", &TableBearing::table, "", Range::any,

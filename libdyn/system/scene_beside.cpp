@@ -1,0 +1,52 @@
+#include "libdyn/system/scene_beside.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "libfe/assembly/excitations.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+/// Whether the loads of two structures, at the same stations, have the same static shapes.
+bool same_shapes_of_loads(const Structure& a, const Structure& b) {
+  // an acceleration of the base has the shape of its amplitude, other forces that of their stations
+  const auto same_shape = [](const Force& x, const Force& y) {
+    return x.kind == y.kind && (x.has_station() || x == y);
+  };
+  return a.unbalances.size() == b.unbalances.size() && a.bow == b.bow &&
+         std::ranges::equal(a.forces, b.forces, same_shape);
+}
+
+bool same_shapes(const Scene& scene, const Model& model) {
+  const Mat& Phi = scene.reduced.Phi;
+  const bool is_whole = Phi.rows() == Phi.cols() && Phi.isIdentity(0.0);
+  if (is_whole) return true;
+  const Structure &here = scene.assembler.structure(), &there = model.structure;
+  if (!same_shapes_of_loads(here, there)) return false;
+  const bool follow_tolerance = model.reduction.modes == 0;
+  if (scene.system.Omega != model.speed) {
+    return model.reduction.method != ReductionMethod::damped && !follow_tolerance;
+  }
+  return !follow_tolerance ||
+         highest_frequency(here, model.speed) == highest_frequency(there, model.speed);
+}
+
+}  // namespace
+
+std::optional<Scene> scene_beside(const Scene& scene, const Model& model) {
+  const bool is_at_speed = scene.system.Omega == model.speed;
+  if (!is_at_speed && scene.assembler.tables_depend_on_speed()) return std::nullopt;
+  auto assembler = scene.assembler.with_loads_of(model.structure);
+  if (!assembler || !same_shapes(scene, model)) return std::nullopt;
+  System system = scene.system;
+  system.Omega = model.speed;
+  ReducedSystem reduced = scene.reduced;
+  reduced.Omega = model.speed;
+  ContactSystem contacts(*assembler, reduced, model.contacts, model.films);
+  return Scene{*std::move(assembler), std::move(system), std::move(reduced), scene.error,
+               std::move(contacts)};
+}
+
+}  // namespace whirl::inline dyn
