@@ -1,9 +1,11 @@
 #pragma once
 /// The list of contact geometries, and what is asked of any of them.
 
+#include <cmath>
 #include <variant>
 
 #include "libcontact/geometry/blade_row.hpp"
+#include "libcontact/geometry/ellipse.hpp"
 #include "libcontact/geometry/face.hpp"
 #include "libcontact/geometry/ring.hpp"
 #include "libcontact/geometry/stop.hpp"
@@ -14,7 +16,8 @@ using AnyGeometry = std::variant<  //
     geometry::Ring,                //
     geometry::Face,                //
     geometry::BladeRow,            //
-    geometry::Stop>;
+    geometry::Stop,                //
+    geometry::Ellipse>;
 
 inline std::string_view name_of(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.name; }, any);
@@ -33,6 +36,9 @@ inline bool takes_offset(const AnyGeometry& any) {
 }
 inline bool turns(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.turns; }, any);
+}
+inline bool is_wall(const AnyGeometry& any) {
+  return std::visit([](const auto& g) { return g.is_wall; }, any);
 }
 inline int places_of(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.places(); }, any);
@@ -56,6 +62,55 @@ inline std::optional<Vec2> direction_of(const AnyGeometry& any) {
 inline Mat2 projection_of(const AnyGeometry& any) {
   const auto n = direction_of(any);
   return n ? Mat2(*n * n->transpose()) : Mat2::Identity();
+}
+
+/// What f gives of a geometry that is a wall, or what is said of others.
+template <class Result, class F>
+Result with_wall(const AnyGeometry& any, const Result& of_others, const F& f) {
+  return std::visit(
+      [&](const auto& g) -> Result {
+        if constexpr (g.is_wall) {
+          return f(g);
+        } else {
+          return of_others;
+        }
+      },
+      any);
+}
+/// Numbers of a wall, zero of other geometries.
+inline WallNumbers<double> wall_numbers_of(const AnyGeometry& any, double clearance) {
+  return with_wall(any, WallNumbers<double>{},
+                   [&](const auto& wall) { return wall.numbers(clearance); });
+}
+
+/// How far a place at u from the middle is out: the clearance on the surface, in proportion to u.
+inline double distance_of(const AnyGeometry& any, double clearance, const Vec2& u) {
+  if (const auto n = direction_of(any)) return n->dot(u);
+  if (!is_wall(any)) return u.norm();
+  const double square = with_wall(
+      any, 0.0, [&](const auto& wall) { return wall.square(u(0), u(1), wall.numbers(clearance)); });
+  return clearance * std::sqrt(square);
+}
+/// How far the surface of a geometry that is met all around is from the middle, in a direction of
+/// length one.
+inline double reach_of(const AnyGeometry& any, double clearance, const Vec2& along) {
+  if (!is_wall(any)) return clearance;
+  return clearance * clearance / distance_of(any, clearance, clearance * along);
+}
+
+/// The direction in which a place at u from the middle meets a geometry.
+inline Vec2 normal_of(const AnyGeometry& any, double clearance, const Vec2& u) {
+  if (const auto n = direction_of(any)) return *n;
+  if (!(u.norm() > 0.0)) return Vec2::UnitX();
+  return with_wall(any, Vec2(u.normalized()), [&](const auto& wall) {
+    const WallGap<double> gap = wall.wall(u(0), u(1), wall.numbers(clearance));
+    return Vec2(Vec2(gap.nx, gap.ny).normalized());
+  });
+}
+/// What is wrong with the numbers of a wall, if anything is.
+inline std::optional<WallProblem> problem_of(const AnyGeometry& any) {
+  return with_wall(any, std::optional<WallProblem>(),
+                   [](const auto& wall) { return wall.problem(); });
 }
 
 }  // namespace whirl::inline contact

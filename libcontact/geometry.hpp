@@ -9,6 +9,7 @@
 ///   static constexpr bool may_stick;          friction may switch its sign at once and stick
 ///   static constexpr bool takes_offset;       the clearance may lie off the rotor's axis
 ///   static constexpr bool turns;              the place turns with the rotor: the phase matters
+///   static constexpr bool is_wall;            it is met all around, on a curve that is no circle
 ///   static constexpr auto fields();           keys of one that laws share (struct field)
 ///   int places() const;                       of one contact of the model
 ///   Self place(i, Omega) const;               number i of them at a spin [rad/s]
@@ -20,8 +21,17 @@
 ///   double beyond(gap, space) const;          above zero in touch, smooth, of order one
 ///   std::optional<Polynomial> beyond(x, y) const;   the same of d / clearance along a path
 ///
-/// Laws say how hard a place presses, libdyn whether it touches, slides or sticks.
+/// and a wall in place of formulas for circles, which the lanes of libdyn/taylor know,
+///
+///   std::optional<WallProblem> problem() const;      what is wrong with it, beyond its fields()
+///   WallNumbers<double> numbers(clearance) const;    what its shape follows from
+///   static T square(x, y, numbers);           one on the wall; t^2 times it at (t x, t y)
+///   static WallGap<T> wall(x, y, numbers);    beside the wall
+///
+/// both for numbers of any kind, series among them. Laws say how hard a place presses, libdyn
+/// whether it touches, slides or sticks.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -54,10 +64,12 @@ struct GapMotion {
 /// Where a place is to its stator; the force on the rotor is -N n - T t.
 template <class T>
 struct ContactGap {
-  T r;      ///< distance from the middle of the stator's curvature, infinite of a plane [m]
-  T depth;  ///< beyond the surface [m]
-  T rate;   ///< of the depth [m/s]
-  T slip;   ///< slip velocity [m/s]
+  /// Distance from the middle of the stator's curvature, infinite of a plane; of a wall the
+  /// clearance times the root of its square() [m].
+  T r;
+  T depth;             ///< beyond the surface [m]
+  T rate;              ///< of the depth [m/s]
+  T slip;              ///< slip velocity [m/s]
   std::array<T, 2> n;  ///< normal, from rotor to stator
 
   std::array<T, 2> t() const { return {-n[1], n[0]}; }
@@ -82,6 +94,47 @@ ContactGap<T> gap_to_circle(const GapMotion<T>& m, double distance, double rim_s
   }
   const auto t = g.t();
   g.depth = g.r - distance;
+  g.rate = g.n[0] * m.w[0] + g.n[1] * m.w[1];
+  g.slip = rim_speed + (t[0] * m.v[0] + t[1] * m.v[1]);
+  return g;
+}
+
+/// Numbers that the shape of a wall follows from.
+template <class T>
+using WallNumbers = std::array<T, 4>;
+
+/// A number of a wall that is none: its key, what it is, what it must be.
+struct WallProblem {
+  std::string_view key;
+  double found = 0.0;
+  std::string_view expected;
+};
+
+/// Where a place is to a wall that is no circle.
+template <class T>
+struct WallGap {
+  T depth;   ///< beyond the wall [m]
+  T nx, ny;  ///< slope of the depth, of length one on the wall: the normal
+};
+
+/// The gap to a wall, d from its middle. The force -N n of a law does no work but on the depth.
+template <class Wall, class T>
+ContactGap<T> gap_to_wall(const GapMotion<T>& m, const WallNumbers<T>& of, const T& clearance,
+                          const T& rim_speed) {
+  using std::sqrt;
+  ContactGap<T> g;
+  const T square = Wall::square(m.d[0], m.d[1], of);
+  if (value_of(square) > 0.0) {
+    const WallGap<T> at = Wall::wall(m.d[0], m.d[1], of);
+    g.r = clearance * sqrt(square);
+    g.depth = at.depth;
+    g.n = {at.nx, at.ny};
+  } else {
+    g.r = T(0.0);
+    g.depth = -clearance;
+    g.n = {T(1.0), T(0.0)};
+  }
+  const auto t = g.t();
   g.rate = g.n[0] * m.w[0] + g.n[1] * m.w[1];
   g.slip = rim_speed + (t[0] * m.v[0] + t[1] * m.v[1]);
   return g;

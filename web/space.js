@@ -175,7 +175,8 @@ class SpaceView {
         for (let f = 0; f < facets; ++f) {
           const angle = (2 * Math.PI * f) / facets;
           if (!s.direction) {
-            this.around(array, k * facets + f, q, r, angle, dz);
+            const wider = s.reach ? scale * (s.reach[f] - s.clearance) : 0; // where the wall is no circle
+            this.around(array, k * facets + f, q, r + wider, angle, dz);
             continue;
           }
           // a plate: there and back along the line that is r away

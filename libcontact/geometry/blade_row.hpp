@@ -17,6 +17,7 @@ struct BladeRow {
   static constexpr bool may_stick = false;
   static constexpr bool takes_offset = true;
   static constexpr bool turns = true;
+  static constexpr bool is_wall = false;
 
   int blades = 1;
   double tip = 0.0;  ///< from the rotor's axis to the tips [m]

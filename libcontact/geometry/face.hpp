@@ -17,6 +17,7 @@ struct Face {
   static constexpr bool may_stick = false;
   static constexpr bool takes_offset = false;
   static constexpr bool turns = false;
+  static constexpr bool is_wall = false;
 
   double radius = 0.0;  ///< of the rim [m]
 

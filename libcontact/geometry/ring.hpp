@@ -14,6 +14,7 @@ struct Ring {
   static constexpr bool may_stick = true;
   static constexpr bool takes_offset = true;
   static constexpr bool turns = false;
+  static constexpr bool is_wall = false;
 
   static constexpr auto fields() { return std::tuple{}; }
 

@@ -20,6 +20,7 @@ struct Stop {
   static constexpr bool may_stick = true;
   static constexpr bool takes_offset = true;
   static constexpr bool turns = false;
+  static constexpr bool is_wall = false;
 
   double angle = 0.0;  ///< of n, from +x to +y [rad]
 

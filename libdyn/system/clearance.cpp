@@ -54,14 +54,19 @@ struct Gap {
     if (const auto n = direction_of(geometry)) {
       return std::abs((*n)(0) * x + (*n)(1) * y) - n->dot(offset);
     }
-    return arm_of(geometry) * farthest(x, y, offset);
+    if (!is_wall(geometry)) return arm_of(geometry) * farthest(x, y, offset);
+    constexpr int instants = 720;
+    double largest = 0.0;
+    for (int i = 0; i < instants; ++i) {
+      const Complex now = std::polar(1.0, 2.0 * std::numbers::pi * i / instants);
+      largest = std::max(largest, distance_of({(x * now).real(), (y * now).real()}));
+    }
+    return largest;
   }
 
   /// The distance at one instant, of the motion that closes the clearance.
   double distance_of(const Vec2& motion) const {
-    const Vec2 u = motion - offset;
-    if (const auto n = direction_of(geometry)) return n->dot(u);
-    return arm_of(geometry) * u.norm();
+    return arm_of(geometry) * whirl::distance_of(geometry, clearance, motion - offset);
   }
 
   /// The distance of a rotor at rest.

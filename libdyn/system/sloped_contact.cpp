@@ -44,6 +44,11 @@ Law<ByParameter> sloped_law(const Law<double>& law, const SlopeOf& slope_of) {
 
 ContactGap<ByParameter> SlopedContact::gap(double phase, GapMotion<ByParameter> m) const {
   for (std::size_t i = 0; i < 2; ++i) m.d[i] = m.d[i] - offset[i];
+  if (is_wall(contact.geometry)) {
+    return with_wall(contact.geometry, ContactGap<ByParameter>{}, [&](const auto& w) {
+      return gap_to_wall<std::remove_cvref_t<decltype(w)>>(m, wall, clearance, rim_speed);
+    });
+  }
   if (const auto* blade = std::get_if<geometry::BladeRow>(&contact.geometry)) {
     const Vec2 e = blade->axis(phase), along(-e(1), e(0));
     for (std::size_t i = 0; i < 2; ++i) {
@@ -92,6 +97,9 @@ SlopedContact sloped_contact(const ContactSystem& system, std::size_t i,
   to.turned_normal = slopes.of([i](const ContactSystem& s) -> Vec2 {
     return direction_of(s.contacts()[i].geometry).value_or(Vec2::Zero());
   });
+  for (std::size_t k = 0; k < to.wall.size(); ++k) {
+    to.wall[k] = number([k](const C& c) { return wall_numbers_of(c.geometry, c.clearance)[k]; });
+  }
   to.law = std::visit(
       [&](const auto& law) -> AnyContactLaw<ByParameter> {
         using Law = std::remove_cvref_t<decltype(law)>;

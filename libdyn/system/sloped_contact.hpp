@@ -23,10 +23,11 @@ struct SlopedContact {
   ByParameter clearance;              ///< [m]
   ByParameter rim_speed;              ///< [m/s]
   ByParameter mu;
-  ByParameter tolerance;  ///< of a smoothed sign of the slip [m/s]
-  ByParameter tip;        ///< radius of a place about the rotor's axis [m]
-  ByParameter tip_speed;  ///< Omega tip [m/s]
-  Vec2 turned_normal;     ///< derivative of a stop's direction, else zero
+  ByParameter tolerance;          ///< of a smoothed sign of the slip [m/s]
+  ByParameter tip;                ///< radius of a place about the rotor's axis [m]
+  ByParameter tip_speed;          ///< Omega tip [m/s]
+  Vec2 turned_normal;             ///< derivative of a stop's direction, else zero
+  WallNumbers<ByParameter> wall;  ///< of a wall
 
   /// Kinematics on a motion.
   /// @param motion  displacement from the rotor's axis at rest, and rates

@@ -20,6 +20,7 @@
 #include "libdyn/taylor/law_lanes-inl.h"
 #include "libdyn/taylor/pattern.hpp"
 #include "libdyn/taylor/rub_lanes-inl.h"
+#include "libdyn/taylor/wall_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
@@ -33,7 +34,8 @@ inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
 /// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
 ///
 /// Of a plane d is its normal, r is one, and s, else the square of the distance, is how far the
-/// rotor is beyond it.
+/// rotor is beyond it. Of a wall d is the slope of the depth, r is one, and s is beyond zero where
+/// the rotor is beyond the wall.
 template <class P>
 struct ContactLanes {
   using Number = typename P::Number;
@@ -49,8 +51,9 @@ struct ContactLanes {
   AnyContactLaw<P> law;
   std::vector<P> ux, uy;                              // per of_x, of_y
   std::vector<P> bx, by;                              // per pushed_by_x, pushed_by_y
-  std::unique_ptr<RubLanes<P>> rub;                   // where friction acts elsewhere, or a plane
+  std::unique_ptr<RubLanes<P>> rub;                   // where friction acts elsewhere, or a normal
   P plane_at{0.0};                                    // n . u of a plane
+  std::unique_ptr<WallLanes<P>> wall;                 // of a wall
   const BladeLanes<P>* disk = nullptr;                // of a blade, what it shares with the others
   P blade_cosine{1.0}, blade_sine{0.0}, excess{0.0};  // of its angle; d . d - clearance^2 at first
   uint64_t continuous = 0, damped = 0, exact = 0, smooth = 0;
@@ -81,19 +84,22 @@ struct ContactLanes {
   // measures
   P duty{0.0}, stuck{0.0}, max_normal{0.0}, max_friction{0.0};
 
-  explicit ContactLanes(const Pattern::ContactRows& of)
+  /// @param order       of the series
+  /// @param has_slopes  whether derivatives of the force are asked for
+  ContactLanes(const Pattern::ContactRows& of, int order, bool has_slopes)
       : rows(of),
         ux(of.of_x.size(), P(0.0)),
         uy(of.of_y.size(), P(0.0)),
         bx(of.pushed_by_x.size(), P(0.0)),
         by(of.pushed_by_y.size(), P(0.0)),
-        rub(of.rubs_apart || of.is_plane ? std::make_unique<RubLanes<P>>(of) : nullptr) {
+        rub(of.rubs_apart || of.has_normal() ? std::make_unique<RubLanes<P>>(of) : nullptr) {
 #ifndef NDEBUG  // a coefficient that is used before it is known makes no number
     for (P* of_all : {dx, dy, s, r, N, q, tau, slip, sine, cosine2, ax, ay, turn_rate}) {
       std::fill_n(of_all, P::most_terms, P(std::numeric_limits<double>::quiet_NaN()));
     }
 #endif
-    if (!of.is_plane) return;
+    if (of.is_wall) wall = std::make_unique<WallLanes<P>>(of.geometry, order + 3, has_slopes);
+    if (!of.has_normal()) return;
     for (int k = 0; k < P::most_terms; ++k) dx[k] = dy[k] = r[k] = P(0.0);
     r[0] = inverse_r = P(1.0);
   }
@@ -114,47 +120,10 @@ struct ContactLanes {
     for (P* sum : {&duty, &stuck, &max_normal, &max_friction}) set_lane(*sum, l, 0.0);
   }
 
-  /// What a contact is made of, without its kind of law and its state.
-  HWY_ATTR void load_numbers(const ReducedContact& from, int l, double turn) {
-    const Friction& f = from.friction;
-    const Number circle = Number(from.clearance) + Number(tip_radius_of(from.geometry));
-    set_lane(clearance, l, circle);
-    set_lane(clearance2, l, circle * circle);
-    set_lane(distance_scale, l, circle * Number(from.clearance));
-    if (const auto* blade = std::get_if<geometry::BladeRow>(&from.geometry)) {
-      set_lane(blade_cosine, l, blade->cosine);
-      set_lane(blade_sine, l, blade->sine);
-    }
-    set_lane(offset_x, l, from.offset(0));
-    set_lane(offset_y, l, from.offset(1));
-    set_lane(mu, l, f.mu);
-    set_lane(rim, l, from.rim_speed);
-    set_lane(inverse_width, l, f.tolerance > 0.0 ? Number(1.0) / Number(f.tolerance) : Number(1.0));
-    set_lane(force_scale, l, normal_force(from.law, from.clearance, 0.0));
-    set_lane(slip_scale, l,
-             std::max(std::abs(from.rim_speed), from.clearance * turn) * from.clearance);
-    set_lane(least_depth, l, is_analytic(from.law) ? -boundless : 1e-8 * from.clearance);
-    set_law(law, from.law, l);
-    for (size_t i = 0; i < ux.size(); ++i) set_lane(ux[i], l, from.U(0, rows.of_x[i]));
-    for (size_t i = 0; i < uy.size(); ++i) set_lane(uy[i], l, from.U(1, rows.of_y[i]));
-    for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, from.B(rows.pushed_by_x[i], 0));
-    for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B(rows.pushed_by_y[i], 1));
-    if (const auto n = direction_of(from.geometry)) load_plane(from, *n, l, turn);
-    if (rub) rub->load(from, l);
-  }
-
-  /// A plane is compared with its clearance, and d and r do not have its unit.
-  HWY_ATTR void load_plane(const ReducedContact& from, const Vec2& n, int l, double turn) {
-    const Number x = n(0), y = n(1);
-    set_lane(dx[0], l, x);
-    set_lane(dy[0], l, y);
-    set_lane(plane_at, l,
-             Number(from.clearance) + (x * Number(from.offset(0)) + y * Number(from.offset(1))));
-    set_lane(clearance, l, 1.0);
-    set_lane(clearance2, l, 1.0);
-    set_lane(distance_scale, l, from.clearance);
-    set_lane(slip_scale, l, std::max(std::abs(from.rim_speed), from.clearance * turn));
-  }
+  // contact_loading-inl.h
+  HWY_ATTR void load_numbers(const ReducedContact& from, int l, double turn);
+  HWY_ATTR void load_plane(const ReducedContact& from, const Vec2& n, int l, double turn);
+  HWY_ATTR void load_wall(const ReducedContact& from, int l, double turn);
 
   HWY_ATTR void set_state(const ContactState& state, int l) {
     const uint64_t bit = uint64_t{1} << l;
@@ -214,6 +183,7 @@ struct ContactLanes {
   HWY_ATTR inline void first_geometry(const P* x) {
     if (disk) return blade_geometry(0, is_evaluated);
     if (rows.is_plane) return plane_geometry(x, 0);
+    if (wall) return wall_geometry(x, 0);
     P x0, y0;
     displacement(x, x0, y0);
     dx[0] = x0 = x0 - offset_x;
@@ -231,6 +201,7 @@ struct ContactLanes {
   HWY_ATTR inline void geometry(const P* x, int k, bool with_distance) {
     if (disk) return blade_geometry(k, with_distance);
     if (rows.is_plane) return plane_geometry(x, k);
+    if (wall) return wall_geometry(x, k);
     displacement(x, dx[k], dy[k]);
     if (!with_distance) {
       s[k] = square_of<P>(dx, dy, k);
@@ -251,10 +222,26 @@ struct ContactLanes {
     if (k == 0) s[0] = s[0] - plane_at;
   }
 
+  /// The same of a wall, for any k.
+  HWY_ATTR void wall_geometry(const P* x, int k) {
+    P xk, yk;
+    displacement(x, xk, yk);
+    if (k == 0) {
+      xk = xk - offset_x;
+      yk = yk - offset_y;
+    }
+    s[k] = wall->square_at(k, xk, yk);
+    if (k == 0) s[0] = s[0] - P(1.0);
+    if (!is_evaluated) return;
+    wall->move_beyond(k, xk, yk, evaluated);
+    dx[k] = wall->beyond.series(wall->nx)[k];
+    dy[k] = wall->beyond.series(wall->ny)[k];
+  }
+
   /// What s has beyond the surface at time t, and its rate, with slopes: beside touch those of s
   /// are left out.
   HWY_ATTR void beyond_at(const P& t, int last, P& value, P& rate_of_it) {
-    if (disk || rows.is_plane) {
+    if (disk || rows.has_normal()) {
       const P s0 = s[0];
       s[0] = beyond();
       horner(s, last, t, value, rate_of_it);
@@ -270,7 +257,7 @@ struct ContactLanes {
 
   /// Coefficient 0 of what s has beyond the surface.
   HWY_ATTR inline P beyond() const {
-    return disk ? excess : rows.is_plane ? s[0] : s[0] - clearance2;
+    return disk ? excess : rows.has_normal() ? s[0] : s[0] - clearance2;
   }
 
   /// The same of a blade, for any k, from what its disk does.
@@ -297,7 +284,10 @@ struct ContactLanes {
   /// just below it, where its force is still nothing; steps near the surface are short by
   /// themselves.
   HWY_ATTR inline P depth(int k) const {
-    if (rows.is_plane) return k == 0 ? max(s[0], least_depth) : s[k];
+    if (rows.has_normal()) {
+      const P* own = depth_of_normal();
+      return k == 0 ? max(own[0], least_depth) : own[k];
+    }
     P d = r[k];
     if (k == 0) d = max(disk ? first_depth_of_blade() : d - clearance, least_depth);
     return d;
@@ -309,7 +299,12 @@ struct ContactLanes {
 
   /// Rate of the distance, coefficient k; for laws that know it, geometry is one coefficient ahead.
   HWY_ATTR inline P rate(int k) const {
-    return rows.has_rate ? P(k + 1.0) * (rows.is_plane ? s[k + 1] : r[k + 1]) : P(0.0);
+    if (!rows.has_rate) return P(0.0);
+    return P(k + 1.0) * (rows.has_normal() ? depth_of_normal()[k + 1] : r[k + 1]);
+  }
+  /// The series of the depth, where the lanes keep it.
+  HWY_ATTR const P* depth_of_normal() const {
+    return wall ? wall->beyond.series(wall->depth) : s;
   }
 
   /// Coefficient k of the normal force.

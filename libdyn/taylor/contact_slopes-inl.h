@@ -63,6 +63,7 @@ struct ContactSlopes {
     const auto& in_touch = c.in_touch;
     has_H = c.rows.has_rate || c.rows.has_smooth_friction;
     if (c.rows.is_plane) return find_of_plane(c, N);
+    if (c.wall) return find_of_wall(c, N);
     P alpha[P::most_terms], beta[P::most_terms], work[P::most_terms], ex[P::most_terms],
         ey[P::most_terms];
     for (int k = 0; k <= N; ++k) work[k] = normal_by_depth[k] - c.q[k];
@@ -131,6 +132,63 @@ struct ContactSlopes {
       const P chi = select(smooth, factor * product_term(c.q, c.cosine2, k), nothing);
       H.add_dyad(k, chi, -y, x, -y, x);
     }
+  }
+
+  /// With the slope n of the depth:
+  ///
+  ///   J = N_d n n^T + N_v n n'^T + N dn/du,   H = N_v n n^T
+  ///
+  /// friction adds phi times the same along t = rot n, and q d(phi) t of the slip n x w:
+  ///
+  ///   q d(phi) = chi (dn/du du x w + n x dw)
+  HWY_ATTR void find_of_wall(const ContactLanes<P>& c, int N) {
+    P ax[P::most_terms], ay[P::most_terms], vx[P::most_terms], vy[P::most_terms];
+    const P nothing(0.0);
+    J.clear(N);
+    if (has_H) H.clear(N);
+    for (int k = 0; k <= N; ++k) {
+      normal_by_depth[k] = select(c.in_touch, normal_by_depth[k], nothing);
+      normal_by_rate[k] = select(c.in_touch, normal_by_rate[k], nothing);
+    }
+    multiply(normal_by_depth, c.dx, ax, N);
+    multiply(normal_by_depth, c.dy, ay, N);
+    J.add(ax, ay, c.dx, c.dy, N);
+    if (c.rows.has_rate) {
+      multiply(normal_by_rate, c.dx, ax, N);
+      multiply(normal_by_rate, c.dy, ay, N);
+      velocity(c, vx, vy, N);
+      J.add(ax, ay, vx, vy, N);
+      H.add(ax, ay, c.dx, c.dy, N);
+    }
+    const auto by = [&](const std::vector<Recorded<P>>& of, size_t input)
+                        HWY_ATTR { return c.wall->beyond.series(of[input]); };
+    const auto &of_x = c.wall->slopes_of_nx, &of_y = c.wall->slopes_of_ny;
+    const P *xx = by(of_x, 0), *xy = by(of_x, 1), *yx = by(of_y, 0), *yy = by(of_y, 1);
+    for (int k = 0; k <= N; ++k) {
+      J.xx[k] = J.xx[k] + product_term(c.q, xx, k);
+      J.xy[k] = J.xy[k] + product_term(c.q, xy, k);
+      J.yx[k] = J.yx[k] + product_term(c.q, yx, k);
+      J.yy[k] = J.yy[k] + product_term(c.q, yy, k);
+    }
+    if (!c.rows.has_friction) return;
+    P phi[P::most_terms];
+    share_of_normal(c, phi, N);
+    turn_by(J, phi, N);
+    if (has_H) turn_by(H, phi, N);
+    if (c.smooth == 0) return;
+    const auto smooth = mask_of<P>(c.smooth & c.touching);
+    const P factor = c.mu * c.inverse_width;
+    P chi[P::most_terms], back[P::most_terms], px[P::most_terms], py[P::most_terms];
+    for (int k = 0; k <= N; ++k) {
+      chi[k] = select(smooth, factor * product_term(c.q, c.cosine2, k), nothing);
+      back[k] = -c.dy[k];
+      px[k] = product_term(xx, c.rub->wy, k) - product_term(yx, c.rub->wx, k);
+      py[k] = product_term(xy, c.rub->wy, k) - product_term(yy, c.rub->wx, k);
+    }
+    multiply(chi, back, ax, N);
+    multiply(chi, c.dx, ay, N);
+    J.add(ax, ay, px, py, N);
+    H.add(ax, ay, back, c.dx, N);
   }
 
   /// phi of tau = phi q where it slides; zero where it sticks.

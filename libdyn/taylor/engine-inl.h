@@ -19,6 +19,7 @@
 #include "libdyn/system/saltation.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/blade_disks-inl.h"
+#include "libdyn/taylor/contact_loading-inl.h"
 #include "libdyn/taylor/equation_lanes-inl.h"
 #include "libdyn/taylor/events-inl.h"
 #include "libdyn/taylor/film_lanes-inl.h"
@@ -53,15 +54,17 @@ class Engine {
     scale_.assign(n, P(1.0));
     y_.assign(static_cast<size_t>(layout().size()), P(0.0));
     contacts_.reserve(pattern.contacts.size());
-    for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
+    const bool wants_tangents = options.exponents || options.tangent;
+    const bool has_slopes = wants_tangents || carries_slopes<P>;
+    for (const Pattern::ContactRows& rows : pattern.contacts) {
+      contacts_.emplace_back(rows, N, has_slopes);
+    }
     event_masks_.resize(contacts_.size());
     disks_ = disks_of(pattern, contacts_);
     alike_.assign(pattern.alike.size(), 0);
     for (const Pattern::ContactRows& rows : pattern.contacts) {
       is_analytic_ = is_analytic_ && rows.is_analytic;
     }
-    const bool wants_tangents = options.exponents || options.tangent;
-    const bool has_slopes = wants_tangents || carries_slopes<P>;
     for (const Pattern::FilmRows& rows : pattern.films) {
       films_.push_back(std::make_unique<FilmLanes<P>>(rows, N, has_slopes));
       is_analytic_ = false;  // near the wall steps get as short as at a surface

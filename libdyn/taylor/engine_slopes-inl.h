@@ -209,6 +209,7 @@ HWY_ATTR void Engine<P>::jump_slopes(size_t i, EventKind kind, const Saltation& 
       c.displacement(y_.data(), u, v);
       function = fma(x, u, y * v) - c.plane_at;
     }
+    if (c.wall) function = c.wall->at(x, y).depth;
   } else {
     if (c.rub) {
       c.rub->lateral(layout().rates_at(y_.data()), u, v);
@@ -296,6 +297,11 @@ HWY_ATTR P Engine<P>::along_event(const ContactLanes<P>& c, EventKind kind, cons
     c.displacement(y_.data(), x, y);
     x = x - c.offset_x;
     y = y - c.offset_y;
+  }
+  if (c.wall) {
+    const WallGap<P> gap = c.wall->at(x, y);
+    x = gap.nx;
+    y = gap.ny;
   }
   c.displacement(moved, u, v);
   const P outward = fma(x, u, y * v);

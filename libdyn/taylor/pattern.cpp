@@ -17,7 +17,7 @@ void insert(std::vector<int>& sorted, int value) {
 
 int bodies_in(const Pattern& p) {
   if (!p.films.empty() || p.contacts.size() != 1 || p.contacts[0].has_rate ||
-      p.contacts[0].rubs_apart || p.contacts[0].is_plane || !p.turning.empty() ||
+      p.contacts[0].rubs_apart || p.contacts[0].has_normal() || !p.turning.empty() ||
       p.off_diagonals > 0)
     return 0;
   const int bodies = p.n / 2;
@@ -110,9 +110,10 @@ Pattern begin_pattern(const ContactSystem& first) {
     const ReducedContact& contact = first.contacts()[c];
     p.contacts[c].law = contact.law.index();
     p.contacts[c].is_analytic = is_analytic(contact.law);
-    p.contacts[c].geometry = contact.geometry.index();
+    p.contacts[c].geometry = contact.geometry;
     p.contacts[c].rubs_apart = contact.rubs_apart();
     p.contacts[c].is_plane = direction_of(contact.geometry).has_value();
+    p.contacts[c].is_wall = is_wall(contact.geometry);
     if (!contact.turns()) continue;
     static_assert(
         only_blade_rows_turn(std::type_identity<AnyGeometry>()),
@@ -136,7 +137,7 @@ void require_alike(const Pattern::ContactRows& rows, const ReducedContact& conta
   if (contact.law.index() != rows.law) {
     throw NumericalError("the systems of a batch must have the same laws at their contacts");
   }
-  if (contact.geometry.index() != rows.geometry) {
+  if (contact.geometry.index() != rows.geometry.index()) {
     throw NumericalError("the systems of a batch must have the same contact geometries");
   }
 }
@@ -148,7 +149,7 @@ void add_contact(Pattern::ContactRows& rows, const ReducedContact& contact, int 
     if (contact.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
     if (contact.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
   }
-  if (rows.rubs_apart || rows.is_plane) insert_friction(rows, contact, n);
+  if (rows.rubs_apart || rows.has_normal()) insert_friction(rows, contact, n);
   const Friction& f = contact.friction;
   rows.has_rate = rows.has_rate || is_damped(contact.law);
   rows.has_friction = rows.has_friction || f.mu > 0.0;

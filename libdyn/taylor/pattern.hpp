@@ -23,13 +23,17 @@ struct Pattern {
     std::vector<int> slips_by_x, slips_by_y, rubbed_x, rubbed_y;
     bool rubs_apart = false;
     bool is_plane = false;  ///< it is met in one direction, which does not change
+    bool is_wall = false;   ///< it is met on a curve that is no circle
     int group = -1;         ///< of places that turn, in turning
     bool has_rate = false;  ///< the law depends on the rate of the depth
     bool has_friction = false;
     bool has_smooth_friction = false;  ///< tanh of the slip
     std::size_t law = 0;               ///< index in AnyContactLaw
-    std::size_t geometry = 0;          ///< index in AnyGeometry
+    AnyGeometry geometry;              ///< that of the first system: its kind counts
     bool is_analytic = true;           ///< the law has a Taylor series at the surface
+
+    /// Whether the lanes keep its normal and its depth, and no distance from a center.
+    bool has_normal() const { return is_plane || is_wall; }
   };
   struct FilmRows {
     std::vector<int> of_x, of_y;                ///< coordinates that move the journal in x, in y

@@ -16,6 +16,7 @@
 #include "libdyn/system/failure_text.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/blade_disks-inl.h"
+#include "libdyn/taylor/contact_loading-inl.h"
 #include "libdyn/taylor/equation_lanes-inl.h"
 #include "libdyn/taylor/film_lanes-inl.h"
 
@@ -36,7 +37,9 @@ class Rk4Lanes {
       v->assign(static_cast<size_t>(layout().size()), P(0.0));
     }
     contacts_.reserve(pattern.contacts.size());
-    for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
+    for (const Pattern::ContactRows& rows : pattern.contacts) {
+      contacts_.emplace_back(rows, 0, false);
+    }
     for (const Pattern::FilmRows& rows : pattern.films) {
       films_.push_back(std::make_unique<FilmLanes<P>>(rows, 0, false));
     }
@@ -191,6 +194,7 @@ class Rk4Lanes {
   /// Adds the force of a contact where it touches and pushes.
   HWY_ATTR void push(const ContactLanes<P>& c, const P* y, P* a) const {
     if (c.rows.is_plane) return push_by_plane(c, y, a);
+    if (c.wall) return push_by_wall(c, y, a);
     P dx, dy, vx, vy;
     c.displacement(y, dx, dy);
     dx = dx - c.offset_x;
@@ -232,6 +236,26 @@ class Rk4Lanes {
     const P N = with_alternative(c.law, [&](const auto& law) HWY_ATTR {
       return law.normal(select(beyond, depth, nothing), rate);
     });
+    const P q = select(both(beyond, less(nothing, N)), N, nothing);
+    push_by(c, q, nx, ny, P(1.0), vx, vy, y, a);
+  }
+
+  /// The same of a wall.
+  HWY_ATTR void push_by_wall(const ContactLanes<P>& c, const P* y, P* a) const {
+    P x, yy, vx, vy;
+    c.displacement(y, x, yy);
+    x = x - c.offset_x;
+    yy = yy - c.offset_y;
+    const WallLanes<P>& wall = *c.wall;
+    const P square = wall.square_of(x, yy), nothing(0.0);
+    const Mask beyond = less(P(1.0), square);
+    if (!any(square, beyond)) return;
+    const auto [depth, nx, ny] =
+        wall.at(select(beyond, x, wall.harmless_x), select(beyond, yy, wall.harmless_y));
+    c.displacement(layout().rates_at(y), vx, vy);
+    const P rate = fma(nx, vx, ny * vy);
+    const P N = with_alternative(
+        c.law, [&](const auto& law) HWY_ATTR { return law.normal(max(depth, nothing), rate); });
     const P q = select(both(beyond, less(nothing, N)), N, nothing);
     push_by(c, q, nx, ny, P(1.0), vx, vy, y, a);
   }

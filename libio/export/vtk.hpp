@@ -2,11 +2,11 @@
 /// Motions for ParaView: a collection (.pvd) of surfaces (.vtp), one per moment.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "libbase/numerics/linalg.hpp"
+#include "libcontact/geometries.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {
@@ -33,13 +33,13 @@ struct VtkDisk {
 /// touch on the screen when they touch in the model.
 struct VtkStator {
   std::string name;
-  int point = -1;                   ///< what carries it, from 0; -1: the ground
-  double z = 0.0;                   ///< of its middle [m]
-  Vec2 offset = Vec2::Zero();       ///< of its center [m]
-  double rotor_radius = 0.0;        ///< of the rotor there [m]
-  double clearance = 0.0;           ///< [m]
-  double width = 0.0;               ///< [m]; 0: a fifth of its radius
-  std::optional<Vec2> direction{};  ///< of a plate, from the rotor
+  int point = -1;              ///< what carries it, from 0; -1: the ground
+  double z = 0.0;              ///< of its middle [m]
+  Vec2 offset = Vec2::Zero();  ///< of its center [m]
+  double rotor_radius = 0.0;   ///< of the rotor there [m]
+  double clearance = 0.0;      ///< [m]
+  double width = 0.0;          ///< [m]; 0: a fifth of its radius
+  AnyGeometry geometry{};      ///< what the rotor meets
 };
 
 /// A place where forces may act, drawn as an arrow's shaft.

@@ -104,7 +104,7 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
     scene.stators.push_back(
         {c.name, against.kind == Point::Kind::body ? index_of(against, assembler) : -1,
          position(model, assembler, at), c.offset, contact_radius(model, assembler, c), c.clearance,
-         0.0, direction_of(geometry_of(c))});
+         0.0, geometry_of(c)});
     scene.contacts.push_back({c.name, index_of(at, assembler)});
   }
   return scene;
@@ -153,8 +153,7 @@ VtkFrame vtk_frame(const Model& model, const Assembler& assembler, double time, 
       d(k) += full(dofs.full_index(at, k));
       if (const int j = dofs.full_index(against, k); j >= 0) d(k) -= full(j);
     }
-    const Vec2 n = direction_of(geometry_of(c))
-                       .value_or(d.norm() > 0.0 ? Vec2(d.normalized()) : Vec2(1.0, 0.0));
+    const Vec2 n = normal_of(geometry_of(c), c.clearance, d);
     const Vec2 t(-n(1), n(0));
     const auto j = static_cast<Eigen::Index>(i);
     const double radius = contact_radius(model, assembler, c);

@@ -181,12 +181,19 @@ std::vector<std::size_t> stations_by_interest(const ResultView& result,
 }
 
 Curve circle(const std::string& name, double radius, double x, double y) {
+  return curve_around(name, [&](const Vec2&) { return radius; }, {x, y});
+}
+
+Curve curve_around(const std::string& name, const std::function<double(const Vec2&)>& reach,
+                   const Vec2& middle) {
   Curve c{.name = name, .paint = Paint::stator, .dash = Dash::dashed};
   constexpr int points = 180;
   for (int i = 0; i <= points; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / points;
-    c.x.push_back(x + radius * std::cos(angle));
-    c.y.push_back(y + radius * std::sin(angle));
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    const double radius = reach(along);
+    c.x.push_back(middle(0) + radius * along(0));
+    c.y.push_back(middle(1) + radius * along(1));
   }
   return c;
 }

@@ -2,6 +2,7 @@
 /// What kinds of figures share.
 
 #include <algorithm>
+#include <functional>
 
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
@@ -94,6 +95,10 @@ std::vector<Eigen::Index> deflection_peaks(const Mat& magnitude);
 
 /// A circle of 181 points.
 Curve circle(const std::string& name, double radius, double x = 0.0, double y = 0.0);
+/// A closed curve about a middle.
+/// @param reach  distance from the middle in a direction of length one
+Curve curve_around(const std::string& name, const std::function<double(const Vec2&)>& reach,
+                   const Vec2& middle = Vec2::Zero());
 /// A line across a direction, at a distance from a point, and of a length to both sides.
 Curve line_across(const std::string& name, const Vec2& direction, double distance, double length,
                   const Vec2& from = Vec2::Zero());

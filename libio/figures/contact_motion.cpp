@@ -16,7 +16,8 @@ using namespace figures;
 constexpr double drawn_contacts = 48.0;  ///< revolutions, of a phase plane
 
 /// Distance of the rotor from the middle of a clearance at all samples, along the direction of a
-/// stop; of a face the axial one of its rim [m].
+/// stop, of an ellipse in the measure in which its wall is at the clearance; of a face the axial
+/// one of its rim [m].
 Vec distance_to_middle(const ResultView& result, const MotionRecord& record, const Contact& c) {
   const AnyGeometry geometry = geometry_of(c);
   Mat motion = motion_of_point(result, record, result.assembler->point(c.at));
@@ -26,8 +27,11 @@ Vec distance_to_middle(const ResultView& result, const MotionRecord& record, con
     return arm_of(geometry) * motion.rightCols<2>().rowwise().norm();
   }
   const Mat d = motion.leftCols<2>().rowwise() - c.offset.transpose();
-  const auto direction = direction_of(geometry);
-  return direction ? Vec(d * *direction) : Vec(d.rowwise().norm());
+  Vec distance(d.rows());
+  for (Eigen::Index i = 0; i < d.rows(); ++i) {
+    distance(i) = distance_of(geometry, c.clearance, d.row(i).transpose());
+  }
+  return distance;
 }
 
 /// The section at impacts: phase of the rotor where a touch begins, and how fast the distance grew.

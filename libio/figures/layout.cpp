@@ -111,21 +111,28 @@ std::vector<Figure> front_view(const ResultView& result) {
     rotor.hover.assign(rotor.x.size(),
                        is_given ? fmt::format("{} of radius {}", c.at.body, format_length(radius))
                                 : fmt::format("{}, its size not given", c.at.body));
-    const auto direction = direction_of(geometry_of(c));
+    const AnyGeometry geometry = geometry_of(c);
+    const auto direction = direction_of(geometry);
     const auto stator = [&](double distance) {
-      return direction ? figures::line_across("stator", *direction, mm * distance, mm * radius)
-                       : figures::circle("stator", mm * distance);
+      if (direction) {
+        return figures::line_across("stator", *direction, mm * (distance + gap), mm * radius);
+      }
+      return figures::curve_around("stator", [&](const Vec2& along) {
+        return mm * (distance + reach_of(geometry, gap, along));
+      });
     };
-    Curve inner = stator(radius + gap), outer = stator(1.12 * radius + gap);
+    Curve inner = stator(radius), outer = stator(1.12 * radius);
     inner.dash = outer.dash = Dash::solid;
     inner.width = 2.2;
     inner.hover.assign(inner.x.size(), "clearance " + format_length(c.clearance));
     p.curves = {outer, inner, rotor};
-    const double reach = mm * (1.12 * radius + gap);
+    const double reach =
+        direction ? mm * (1.12 * radius + gap) : *std::ranges::max_element(outer.y);
     p.labels.push_back({0.0, reach, "clearance " + format_length(c.clearance), Anchor::middle, 0.0,
                         -7.0, Paint::stator});
-    p.x.first = p.y.first = -1.2 * reach;
-    p.x.last = p.y.last = 1.2 * reach;
+    const double widest = direction ? reach : std::max(reach, *std::ranges::max_element(outer.x));
+    p.x.first = p.y.first = -1.2 * widest;
+    p.x.last = p.y.last = 1.2 * widest;
     f.panels.push_back(std::move(p));
   }
   return {f};

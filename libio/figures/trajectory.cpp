@@ -151,21 +151,23 @@ std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown,
   return curves;
 }
 
-/// The clearance circle of a contact, or the line of a stop, where it stands still in a frame and
-/// is not far outside.
+/// The clearance circle of a contact, its ellipse, or the line of a stop, where it stands still in
+/// a frame and is not far outside.
 /// @param size  of the orbit [m]
 std::optional<Curve> clearance_curve(const Contact& contact, double size, double factor,
                                      bool is_rotating) {
   const bool is_fixed = contact.against.kind == Station::Kind::ground;
-  const auto direction = direction_of(geometry_of(contact));
-  const bool is_centered = contact.offset.norm() == 0.0 && !direction;
+  const AnyGeometry geometry = geometry_of(contact);
+  const auto direction = direction_of(geometry);
+  const bool is_centered = contact.offset.norm() == 0.0 && !direction && !is_wall(geometry);
   if (!(contact.clearance > 0.0 && contact.clearance < 20.0 * size)) return std::nullopt;
   if (is_rotating && !(is_fixed && is_centered)) return std::nullopt;
   const std::string name = is_fixed ? "clearance" : "clearance, stator at rest";
   const double distance = factor * contact.clearance;
   const Vec2 middle = factor * contact.offset;
-  return direction ? line_across(name, *direction, distance, factor * size, middle)
-                   : circle(name, distance, middle(0), middle(1));
+  if (direction) return line_across(name, *direction, distance, factor * size, middle);
+  return curve_around(
+      name, [&](const Vec2& along) { return reach_of(geometry, distance, along); }, middle);
 }
 
 std::vector<Figure> orbit_figures(const ResultView& result) {

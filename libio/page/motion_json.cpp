@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/linear/unbalance_study.hpp"
@@ -18,6 +19,17 @@ namespace {
 
 constexpr Eigen::Index most_numbers = 400'000;  ///< of a motion: 1.6 MB
 constexpr double most_revolutions = 24.0;
+
+/// How far the surface of a stator is from its middle, all around [m].
+Record reaches(const VtkStator& s) {
+  constexpr int directions = 64;  // those of web/space.js
+  Record all = Record::array();
+  for (int i = 0; i < directions; ++i) {
+    const double angle = turn * i / directions;
+    all.add(reach_of(s.geometry, s.clearance, {std::cos(angle), std::sin(angle)}));
+  }
+  return all;
+}
 
 Record scene_record(const VtkScene& scene) {
   Record shaft = Record::array(), disks = Record::array(), stators = Record::array();
@@ -38,7 +50,10 @@ Record scene_record(const VtkScene& scene) {
     r.set("name", s.name).set("point", s.point).set("z", s.z);
     r.set("x", s.offset(0)).set("y", s.offset(1)).set("radius", s.rotor_radius);
     r.set("clearance", s.clearance).set("rotor", scene.contacts[i].point);
-    if (s.direction) r.set("direction", Record::Array{(*s.direction)(0), (*s.direction)(1)});
+    if (const auto n = direction_of(s.geometry)) {
+      r.set("direction", Record::Array{(*n)(0), (*n)(1)});
+    }
+    if (is_wall(s.geometry)) r.set("reach", reaches(s));
     stators.add(r);
   }
   Record r;

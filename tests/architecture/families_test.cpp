@@ -141,14 +141,20 @@ TEST(Bearings, NoCodeAsksForAKind) {
 
 // A contact geometry: likewise. Equations, events, orbits, model files and pictures ask it, and
 // none knows it by name.
-TEST(Geometries, AStopIsAFileAndTwoLinesOfTheList) {
-  const std::string named = "\\bStop\\b|geometry/stop";
+void expect_file_and_two_lines(const std::string& named, const std::string& file) {
   std::map<std::string, int> outside = places_in("libcontact", named);
-  outside.erase("geometry/stop.hpp");
+  EXPECT_EQ(outside.erase(file), 1u);
   EXPECT_EQ(outside, (std::map<std::string, int>{{"geometries.hpp", 2}}));
   for (const char* folder : {"libfe", "libdyn", "libdata", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, named).empty()) << folder;
   }
+}
+TEST(Geometries, AStopIsAFileAndTwoLinesOfTheList) {
+  expect_file_and_two_lines("\\bStop\\b|geometry/stop", "geometry/stop.hpp");
+}
+// A curved wall, too: lanes and their derivatives take its formulas from there.
+TEST(Geometries, AnEllipseIsAFileAndTwoLinesOfTheList) {
+  expect_file_and_two_lines("\\bEllipse\\b|geometry/ellipse", "geometry/ellipse.hpp");
 }
 
 }  // namespace families_test

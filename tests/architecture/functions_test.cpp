@@ -1,4 +1,5 @@
-// No function is long: one of more than 80 lines has a second idea in it.
+// No function is long, and no class is wide: one of more than 80 lines, or of more than 25 members,
+// has a second idea in it.
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,90 @@ TEST(Architecture, NoFunctionIsTooLong) {
     }
   }
   EXPECT_GT(count, 5000u);  // the scan found them
+}
+
+/// Members of the classes of a source as clang-format sets it: what begins in the third column
+/// between the head of a class, which begins a line, and its closing brace; functions and data
+/// alike, without those that only say something to the compiler.
+std::map<std::string, int> members_in(std::istream& source) {
+  static const std::regex head(R"(^(?:class|struct) (?:\w+ )*?(\w+)(?: final)?(?: :.*)? \{$)"),
+      member(R"(^  [^ /}#:])"),
+      no_member(
+          R"(^  (?:template|requires|using|friend|static_assert|HWY_ATTR$|__attribute__\S*$))");
+  std::map<std::string, int> found;
+  std::string name;
+  for (std::string line; std::getline(source, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, head)) {
+      name = match[1];
+      found[name] = 0;
+    } else if (line.starts_with("};")) {
+      name.clear();
+    } else if (!name.empty() && std::regex_search(line, member) &&
+               !std::regex_search(line, no_member)) {
+      ++found[name];
+    }
+  }
+  return found;
+}
+
+TEST(Classes, AreCounted) {
+  std::istringstream source(
+      "class A : public B {\n public:\n  /// Says.\n  A();\n  template <class T>\n  void f(int a,\n"
+      "         int b) {\n    g();\n  }\n\n private:\n  using T = int;\n  int a_ = 0;  ///< "
+      "x\n};\n");
+  EXPECT_EQ(members_in(source), (std::map<std::string, int>{{"A", 3}}));
+}
+
+// Wider ones are named here with why, and do not grow.
+TEST(Architecture, NoClassIsTooWide) {
+  constexpr int most = 25;
+  struct Wide {
+    int members;
+    const char* why;
+  };
+  const std::map<std::string, Wide> known = {
+      {"Engine", {110, "the parts of a step share packs that must stay in registers"}},
+      {"ContactLanes", {64, "the coefficients of one contact, which its loop holds together"}},
+      {"ContactStep", {57, "to be parted: nodes, forces, Newton's method, paths, dense output"}},
+      {"ContactSystem", {45, "the equations of motion, asked for in the words of every method"}},
+      {"TableReader", {37, "a function for every kind of value that a table may hold"}},
+      {"Invocation", {36, "to be parted: the call, its output, its files, its progress"}},
+      {"Continuation", {36, "to be parted: the walk, its steps, what it meets"}},
+      {"PieceHands", {31, "to be parted: what is handed out, what comes back"}},
+      {"ResultWriter", {30, "a function for every kind of value that a file may hold"}},
+      {"ResultReader", {29, "a function for every kind of value that a file may hold"}},
+      {"Assembler", {30, "what analyses ask of a structure: matrices, loads, places"}},
+      {"ResponseDataset", {28, "the fields of a record, as its format numbers them"}},
+      {"CollocationRun", {28, "to be parted: a step, its events, its end"}},
+      {"Writer", {27, "a function for every table of a file"}},
+      {"HarmonicEquations", {27, "to be parted: equations, their slopes, receptances"}},
+      {"Builder", {27, "the calls that a parser of JSON makes"}},
+      {"LinearFlow", {26, "tables and what is done with them"}},
+  };
+  std::map<std::string, int> wide;
+  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libdata", "libio",
+                             "libverbs", "apps", "python"}) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(WHIRL_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".cpp" && extension != ".hpp" && extension != ".h") continue;
+      std::ifstream file(entry.path());
+      for (const auto& [name, count] : members_in(file)) {
+        if (count <= most) continue;
+        wide[name] = count;
+        const auto at = known.find(name);
+        EXPECT_NE(at, known.end()) << entry.path() << ": " << name << " has " << count;
+        if (at != known.end()) {
+          EXPECT_LE(count, at->second.members)
+              << entry.path() << ": " << name << ", " << at->second.why;
+        }
+      }
+    }
+  }
+  for (const auto& [name, members] : known) {
+    EXPECT_EQ(wide[name], members.members) << name << " is narrower now: say so here";
+  }
 }
 
 }  // namespace functions_test

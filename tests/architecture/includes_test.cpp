@@ -221,6 +221,25 @@ TEST(Architecture, LibrariesThatComputeDoNotSpeakCommandLine) {
   EXPECT_FALSE(lines_in("libverbs", option).empty());  // where it may
 }
 
+// What all methods stand on has tests of its own, which a change of it is found by.
+TEST(Architecture, EveryHeaderOfTheEquationsHasATest) {
+  std::string tests;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(WHIRL_SOURCE_DIR) / "tests")) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      if (line.starts_with("#include \"libdyn/")) tests += line + '\n';
+    }
+  }
+  for (const std::string room : {"libdyn/system", "libdyn/flow"}) {
+    for (const auto& entry : fs::directory_iterator(fs::path(WHIRL_SOURCE_DIR) / room)) {
+      if (entry.path().extension() != ".hpp") continue;
+      const std::string name = room + '/' + entry.path().filename().string();
+      EXPECT_NE(tests.find("\"" + name + "\""), std::string::npos) << name;
+    }
+  }
+}
+
 TEST(Architecture, NoFileIsTooLong) {
   constexpr int most = 450;  // beyond 400 lines look for the second idea; a little slack for tables
   for (const char* folder : folders) {

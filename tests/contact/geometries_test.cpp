@@ -31,6 +31,10 @@ geometry::Stop sample(geometry::Stop) {
   return {.angle = 0.4};
 }
 
+geometry::Ellipse sample(geometry::Ellipse) {
+  return {.angle = 0.4, .aspect = 1.3};
+}
+
 /// A motion that is beyond the surface of every sample: d, its rate, and the velocity in the slip.
 struct Motion {
   Vec2 d, w, v;
@@ -87,7 +91,9 @@ TYPED_TEST(EveryGeometry, PushesAlongTheSlopesOfDepthAndSlip) {
   EXPECT_EQ(gap.rate.value, plain.rate);
   EXPECT_EQ(gap.slip.value, plain.slip);
   const Vec2 n(plain.n[0], plain.n[1]), t(-n(1), n(0));
-  EXPECT_NEAR(n.norm(), 1.0, rounding);
+  if (!TypeParam::is_wall) {
+    EXPECT_NEAR(n.norm(), 1.0, rounding);
+  }
   EXPECT_LT((gap.depth.slopes.template head<2>() - n).norm(), rounding);
   EXPECT_LT(gap.depth.slopes.template tail<4>().norm(), rounding);
   EXPECT_LT((gap.rate.slopes.template segment<2>(2) - n).norm(), rounding);
@@ -120,6 +126,20 @@ TYPED_TEST(EveryGeometry, IsAPolynomialAlongAPathIfItSaysSo) {
     const auto gap =
         gap_of(this->geometry, phase, {space.clearance * d, this->motion.w, this->motion.v});
     EXPECT_NEAR((*along)(s), this->geometry.beyond(gap, space), 10.0 * rounding) << s;
+  }
+}
+
+// A wall has a slope of length one where it is touched.
+TYPED_TEST(EveryGeometry, HasAUnitNormalOnItsSurface) {
+  const AnyGeometry any = this->geometry;
+  if (direction_of(any) || turns(any)) return;  // a plane's is everywhere
+  for (const double angle : {0.0, 0.7, 2.0, 4.0}) {
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    const Vec2 on = reach_of(any, space.clearance, along) * along;
+    const auto gap = gap_of(this->geometry, phase, {on, this->motion.w, this->motion.v});
+    EXPECT_NEAR(gap.depth, 0.0, rounding * space.clearance);
+    EXPECT_NEAR(std::hypot(gap.n[0], gap.n[1]), 1.0, rounding);
+    EXPECT_NEAR(distance_of(any, space.clearance, on), space.clearance, rounding * space.clearance);
   }
 }
 

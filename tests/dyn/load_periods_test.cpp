@@ -1,6 +1,7 @@
 // Loads of other frequencies than that of the speed: when they repeat, alone and together, and
 // which are too fast.
 
+#include "libdyn/system/excitation.hpp"
 #include "libdyn/system/load_periods.hpp"
 
 #include <gtest/gtest.h>

@@ -289,6 +289,24 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesAtAStop) {
   EXPECT_GE(found.events.size(), 50u);
 }
 
+TEST(MotionSlopes, AreTheLimitOfDifferencesAtAnEllipse) {
+  const Knob aspect{"aspect", [](Model& m) -> double& {
+                      return std::get<geometry::Ellipse>(m.contacts[0].geometry).aspect;
+                    }};
+  const Knob angle{"angle", [](Model& m) -> double& {
+                     return std::get<geometry::Ellipse>(m.contacts[0].geometry).angle;
+                   }};
+  RotorStator p = test::P1;
+  p.cC = 1e3;
+  p.slip_tolerance = 1.0;
+  Model model = p.model();
+  model.contacts[0].geometry = geometry::Ellipse{.angle = 0.4, .aspect = 1.2};
+  const auto found = expect_differences(
+      {.model = model, .settle = 20, .revolutions = 10},
+      {stiffness(), damping(), friction(), clearance(), offset(0, 1e-3), aspect, angle, speed()});
+  EXPECT_GE(found.events.size(), 20u);
+}
+
 TEST(MotionSlopes, AreTheLimitOfDifferencesAtAFace) {
   const Knob face_stiffness{
       "face stiffness", [](Model& m) -> double& { return std::get<Face<>>(m.contacts[1].law).k; }};

@@ -124,6 +124,12 @@ Model at_a_stop(double k) {
   model.contacts[0].geometry = geometry::Stop{.angle = 2.2};
   return model;
 }
+/// A ring that gets more and more out of round.
+Model in_an_ellipse(double aspect) {
+  Model model = changed(smoothed, [](auto& r) { r.cC = 2e4; }).model();
+  model.contacts[0].geometry = geometry::Ellipse{.angle = 0.4, .aspect = aspect};
+  return model;
+}
 Model at_a_face(double speed) {
   Model m = test::overhung_disk_with_smooth_face();
   m.speed = speed;
@@ -147,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"damped_hertz", rotor(hunt, &RotorStator::alpha), 0.5, 50, false},
                       Case{"sticking_by_friction", rotor(slipping, &RotorStator::mu), 0.5, 10},
                       Case{"sticking_by_speed", rotor(slipping, &RotorStator::Omega), 151.8462, 10},
-                      Case{"stop", at_a_stop, 150e6, 20},
+                      Case{"stop", at_a_stop, 150e6, 20}, Case{"ellipse", in_an_ellipse, 1.2, 20},
                       Case{"face", at_a_face, test::overhung_disk().speed, 20},
                       Case{"blades", test::bladed_disk, 450.0, 5, false},
                       Case{"films", on_films, 0.018, 20, false}),

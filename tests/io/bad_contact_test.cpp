@@ -34,10 +34,10 @@ face_radius = 1
     ASSERT_EQ(found.size(), 1u) << joined(found);
     EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
   };
-  expect(
-      body + tilts + "friction = 0.1\n",
-      "m:8:1: contact.rim.slip_tolerance: found none, but this law cannot stick: give a width to "
-      "the sign of the slip, such as \"1 mm/s\", or say slip = \"forward\"");
+  expect(body + tilts + "friction = 0.1\n",
+         "m:8:1: contact.rim.slip_tolerance: found none, but this contact cannot stick: give a "
+         "width to "
+         "the sign of the slip, such as \"1 mm/s\", or say slip = \"forward\"");
   expect(body + tilts + "friction = 0.1\nslip_tolerance = 0\n",
          "m:16:18: contact.rim.slip_tolerance");
   expect(body + tilts + "radius = 1\n", "m:15:10: contact.rim.radius: the law says where it slips");
@@ -96,6 +96,43 @@ blade_line_density = 1
          "m:11:1: contact.tips.stiffness: unknown key");
 }
 
+TEST(BadContact, KeysOfAnEllipse) {
+  const std::string text = R"(format = 1
+[[body]]
+name = "rotor"
+mass = 1
+[[contact]]
+name = "worn"
+geometry = "ellipse"
+body = "rotor"
+clearance = 1
+stiffness = 1
+angle = "20 deg"
+aspect = 1.25
+)";
+  EXPECT_EQ(joined(problems(text)), "");
+  EXPECT_EQ(joined(problems(text + "friction = 0.1\nradius = 1\nslip = \"forward\"\n")), "");
+  const auto expect = [&](const std::string& of, const std::string& becomes,
+                          const std::string& part) {
+    std::string wrong = text;
+    wrong.replace(wrong.find(of), of.size(), becomes);
+    const auto found = problems(wrong);
+    ASSERT_EQ(found.size(), 1u) << joined(found);
+    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
+  };
+  expect("aspect = 1.25\n", "", "m:5:1: contact.worn.aspect: missing");
+  expect("1.25", "0.8", "m:12:10: contact.worn.aspect: found 0.8, expected 1 or more");
+  expect("1.25", "-1", "m:12:10: contact.worn.aspect: found -1");
+  expect("1.25\n", "1.25\nfriction = 0.1\nradius = 1\n",
+         "m:5:1: contact.worn.slip_tolerance: found none, but this contact cannot stick");
+  std::string round = text;
+  round.replace(round.find("ellipse"), 7, "ring");
+  EXPECT_EQ(problems(round),
+            (std::vector<std::string>{
+                "m:11:9: contact.worn.angle: goes with geometry = \"stop\" or \"ellipse\"",
+                "m:12:10: contact.worn.aspect: goes with geometry = \"ellipse\""}));
+}
+
 TEST(BadContact, KeysOfAStop) {
   const std::string text = R"(format = 1
 [[body]]
@@ -125,7 +162,7 @@ angle = "-90 deg"
   expect("-90 deg", "-90 mm", "m:11:9: contact.snubber.angle: found \"-90 mm\", expected an angle");
   expect("geometry = \"stop\"\n", "",
          "m:10:9: contact.snubber.angle: goes with geometry = \"stop\"");
-  expect("\"stop\"", "\"stob\"", "expected one of ring, stop; did you mean \"stop\"?");
+  expect("\"stop\"", "\"stob\"", "expected one of ring, stop, ellipse; did you mean \"stop\"?");
 }
 
 TEST(BadContact, ALawThatIsForAGeometryTakesNoOther) {

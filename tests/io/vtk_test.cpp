@@ -157,7 +157,7 @@ TEST_F(VtkSeries, HasAllSurfacesAndArrays) {
 TEST_F(VtkSeries, AStopIsAPlateAcrossItsDirection) {
   VtkScene scene = example();
   const Vec2 n(0.6, 0.8), t(-0.8, 0.6);
-  scene.stators[1].direction = n;
+  scene.stators[1].geometry = geometry::Stop{.angle = std::atan2(n(1), n(0))};
   const auto data = written(scene, at_rest(scene), {.deflection_scale = 1.0, .facets = 12});
   int corners = 0;
   for (const vtkIdType i : points(data, 2)) {

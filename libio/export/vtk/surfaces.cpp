@@ -25,7 +25,12 @@ class Builder {
       : surfaces_(surfaces), facets_(facets), part_(part), member_(static_cast<int>(index) + 1) {}
 
   /// A circle of vertices about the center's arm, from +x towards +y.
-  Ring ring(const Vertex& center, double radius, double gap_radius = 0.0) {
+  Ring ring(const Vertex& center, double radius) {
+    return ring(center, radius, [](const Vec2&) { return 0.0; });
+  }
+  /// @param gap_at  the gap beyond the radius, in a direction of length one
+  template <class GapAt>
+  Ring ring(const Vertex& center, double radius, const GapAt& gap_at) {
     Ring result;
     for (int i = 0; i < facets_; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / facets_;
@@ -33,7 +38,7 @@ class Builder {
       result.push_back(static_cast<int>(surfaces_.vertices.size()));
       surfaces_.vertices.push_back(center);
       surfaces_.vertices.back().arm += radius * direction;
-      surfaces_.vertices.back().gap += gap_radius * direction;
+      surfaces_.vertices.back().gap += gap_at(direction.head<2>()) * direction;
     }
     return result;
   }
@@ -157,12 +162,12 @@ Surfaces surfaces_of(const VtkScene& scene, const VtkOptions& options) {
     const Vector3d offset(s.offset.x(), s.offset.y(), 0.0);
     const Vertex left{s.point, s.point, 0.0, Vector3d(0.0, 0.0, z - 0.5 * width), offset};
     const Vertex right{s.point, s.point, 0.0, Vector3d(0.0, 0.0, z + 0.5 * width), offset};
-    if (s.direction) {
-      builder.plate(left, right, s.rotor_radius, s.clearance, *s.direction);
+    if (const auto direction = direction_of(s.geometry)) {
+      builder.plate(left, right, s.rotor_radius, s.clearance, *direction);
       continue;
     }
-    builder.band(builder.ring(left, s.rotor_radius, s.clearance),
-                 builder.ring(right, s.rotor_radius, s.clearance));
+    const auto gap = [&](const Vec2& along) { return reach_of(s.geometry, s.clearance, along); };
+    builder.band(builder.ring(left, s.rotor_radius, gap), builder.ring(right, s.rotor_radius, gap));
   }
   return surfaces;
 }

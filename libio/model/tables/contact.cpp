@@ -53,12 +53,16 @@ void check_geometry(const Contact& contact, TableReader& table) {
   if (contact.friction.is_exact() && !may_stick(geometry)) {
     table.problem(
         "slip_tolerance",
-        "found none, but this law cannot stick: give a width to the sign of the slip, such "
+        "found none, but this contact cannot stick: give a width to the sign of the slip, such "
         "as \"1 mm/s\", or say slip = \"forward\"");
   }
   if (!takes_offset(geometry) && table.has("offset")) {
     table.problem("offset",
                   fmt::format("a {} has none: its clearance is axial", name_of(geometry)));
+  }
+  if (const auto problem = problem_of(geometry)) {
+    table.problem(problem->key,
+                  fmt::format("found {:g}, expected {}", problem->found, problem->expected));
   }
   if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
     table.at_most("blades", tips->blades, 1000);
