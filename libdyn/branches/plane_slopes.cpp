@@ -6,6 +6,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/system/number_slopes.hpp"
+#include "libdyn/system/sloped_contact.hpp"
 #include "libdyn/system/system_numbers.hpp"
 
 namespace whirl::inline dyn {
@@ -39,7 +40,8 @@ bool are_a_sum(const std::vector<Vec>& a, const std::vector<Vec>& b, const std::
 
 /// Slopes of the depth over the clearance where it grazes, from those of the state there.
 ///
-///   d(depth) = n . (U dy - d(offset)) - d(clearance)
+///   d(depth) = n . U dy + what the numbers of the contact change: of a ring
+///   -n . d(offset) - d(clearance)
 ///
 /// @param change  of the basis of the start
 void add_depth(const ContactSystem& system, const SlopePanel& panel, double value,
@@ -53,15 +55,13 @@ void add_depth(const ContactSystem& system, const SlopePanel& panel, double valu
   const Vec by_state = c.U.transpose() * f.n / c.clearance;
   const Vec weights = panel.weights(value);
   const NumberSlopes slopes(panel.secants(), weights);
-  const auto number = [&](auto number_of) {
-    return slopes.of([&](const ContactSystem& s) { return number_of(s.contacts()[i]); });
-  };
-  const double surface =
-      number([&](const ReducedContact& of) { return f.n.dot(of.offset) + of.clearance; });
-  const double clearance = number([](const ReducedContact& of) { return of.clearance; });
   const StateLayout layout = system.layout();
-  to.depth_by_parameter = by_state.dot(layout.eta(m.by_parameter[0]).col(0)) -
-                          surface / c.clearance - f.depth / (c.clearance * c.clearance) * clearance;
+  const SlopedContact contact = sloped_contact(system, i, slopes);
+  const Vec2 u = c.U * layout.eta(y), rate = c.U * layout.rate(y);
+  const GapMotion<ByParameter> motion{{u(0), u(1)}, {rate(0), rate(1)}, {rate(0), rate(1)}};
+  const ByParameter depth =
+      contact.gap(graze.time * system.phase_rate(), motion).depth / contact.clearance;
+  to.depth_by_parameter = by_state.dot(layout.eta(m.by_parameter[0]).col(0)) + depth.slopes(0);
   if (m.by_start.empty()) return;
   to.depth_by_start = layout.eta(m.by_start[0]).transpose() * by_state;
   if (!change.is_none()) to.depth_by_start = change.matrix().transpose() * to.depth_by_start;

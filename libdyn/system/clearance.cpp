@@ -55,10 +55,9 @@ struct Gap {
       return std::abs((*n)(0) * x + (*n)(1) * y) - n->dot(offset);
     }
     if (!is_wall(geometry)) return arm_of(geometry) * farthest(x, y, offset);
-    constexpr int instants = 720;
     double largest = 0.0;
-    for (int i = 0; i < instants; ++i) {
-      const Complex now = std::polar(1.0, 2.0 * std::numbers::pi * i / instants);
+    for (int i = 0; i < moments; ++i) {
+      const Complex now = std::polar(1.0, 2.0 * std::numbers::pi * i / moments);
       largest = std::max(largest, distance_of({(x * now).real(), (y * now).real()}));
     }
     return largest;

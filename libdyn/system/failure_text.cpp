@@ -33,9 +33,12 @@ std::string failure_text(const ContactSystem& system, const MotionState& state,
     const ReducedContact& c = system.contacts()[i];
     if (c.turns() && c.place != deepest_place(system, state, c.owner)) continue;
     const ContactForces f = kinematics(c, state.phase, state.y.data(), system.layout());
-    contacts += fmt::format(
-        "; contact \"{}\" {}, {:.4g} clearances from its center, slip {:.3g} m/s", c.name,
-        words[static_cast<int>(state.contacts[i].touch)], 1.0 + f.depth / c.clearance, f.slip);
+    // inside a wall neither depth nor normal is told by a distance from it
+    const bool is_inside = is_wall(c.geometry) && state.contacts[i].touch == Touch::apart;
+    const double out = is_inside ? f.r / c.clearance : 1.0 + f.depth / c.clearance;
+    contacts += fmt::format("; contact \"{}\" {}, {:.4g} clearances from its center", c.name,
+                            words[static_cast<int>(state.contacts[i].touch)], out);
+    if (!is_inside) contacts += fmt::format(", slip {:.3g} m/s", f.slip);
   }
   for (const ReducedFilm& film : system.films()) {
     contacts += fmt::format("; journal of oil film \"{}\" at {:.8g} of its clearance", film.name,

@@ -9,21 +9,25 @@ namespace whirl::inline dyn {
 
 namespace {
 
-/// Whether the loads of two structures, at the same stations, have the same static shapes.
+/// Whether two structures have the same kinds of loads, which act at the same stations.
+bool same_kinds_of_loads(const Structure& a, const Structure& b) {
+  return a.unbalances.size() == b.unbalances.size() && a.probes.size() == b.probes.size() &&
+         std::ranges::equal(a.forces, b.forces, {}, &Force::kind, &Force::kind);
+}
+
+/// Whether these have the same static shapes, too: an acceleration of the base has the shape of its
+/// amplitude, other forces that of their stations.
 bool same_shapes_of_loads(const Structure& a, const Structure& b) {
-  // an acceleration of the base has the shape of its amplitude, other forces that of their stations
-  const auto same_shape = [](const Force& x, const Force& y) {
-    return x.kind == y.kind && (x.has_station() || x == y);
-  };
-  return a.unbalances.size() == b.unbalances.size() && a.bow == b.bow &&
-         std::ranges::equal(a.forces, b.forces, same_shape);
+  const auto same_shape = [](const Force& x, const Force& y) { return x.has_station() || x == y; };
+  return a.bow == b.bow && std::ranges::equal(a.forces, b.forces, same_shape);
 }
 
 bool same_shapes(const Scene& scene, const Model& model) {
   const Mat& Phi = scene.reduced.Phi;
+  const Structure &here = scene.assembler.structure(), &there = model.structure;
+  if (!same_kinds_of_loads(here, there)) return false;
   const bool is_whole = Phi.rows() == Phi.cols() && Phi.isIdentity(0.0);
   if (is_whole) return true;
-  const Structure &here = scene.assembler.structure(), &there = model.structure;
   if (!same_shapes_of_loads(here, there)) return false;
   const bool follow_tolerance = model.reduction.modes == 0;
   if (scene.system.Omega != model.speed) {
@@ -45,8 +49,8 @@ std::optional<Scene> scene_beside(const Scene& scene, const Model& model) {
   ReducedSystem reduced = scene.reduced;
   reduced.Omega = model.speed;
   ContactSystem contacts(*assembler, reduced, model.contacts, model.films);
-  return Scene{*std::move(assembler), std::move(system), std::move(reduced), scene.error,
-               std::move(contacts)};
+  return Scene{
+      *std::move(assembler), std::move(system), std::move(reduced), {}, std::move(contacts)};
 }
 
 }  // namespace whirl::inline dyn

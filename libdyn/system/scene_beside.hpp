@@ -8,12 +8,13 @@
 namespace whirl::inline dyn {
 
 /// The scene of a model with the same mesh, matrices and shapes as another scene, at another speed,
-/// with other loads, contacts and films: to the last bit what make_scene makes, without assembling
-/// or reducing anything again.
+/// with other loads, contacts and films: to the last bit what make_scene makes without an estimate
+/// of the reduction's error, without assembling or reducing anything again.
 ///
 /// @param scene  of a model with the same reduction, and with contacts and films at the same
 /// stations
-/// @return  nothing where the structure differs in more than its loads, where coefficients change
+/// @return  nothing where the structure differs in more than its loads and their kinds, where
+/// coefficients change
 ///          with the speed, or where the shapes do: those of damped modes change with the speed, as
 ///          many modes as a tolerance needs with every frequency, static shapes with the bow and
 ///          with accelerations of the base

@@ -64,8 +64,9 @@ Mat damped_basis(const Modes& modes, const Mat& rigid, const Sparse& M, int size
 
 ReducedSystem unreduced(const System& system) {
   const auto n = system.size();
-  return {Mat::Identity(n, n), Mat(system.M), Mat(system.C), Mat(system.G),
-          Mat(system.K),       Mat(system.H), system.dofs,   system.Omega};
+  return {Mat::Identity(n, n), Mat(system.M), Mat(system.C),
+          Mat(system.G),       Mat(system.K), system.circulates() ? Mat(system.H) : Mat::Zero(n, n),
+          system.dofs,         system.Omega};
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ const DofMap& UnbalanceSolver::dofs() const {
 std::optional<CVec> UnbalanceSolver::at(double Omega) {
   State& s = *state_;
   if (Omega == 0.0 && s.steady.size() == 0) return CVec(CVec::Zero(dofs().full_size));
-  if (!s.stiffness || s.assembler.depends_on_speed()) {
+  if (!s.stiffness || s.assembler.tables_depend_on_speed()) {
     const System system = s.assembler.uncondensed(Omega);
     s.stiffness.emplace(system.M, system.C, system.G, system.K, system.H);
   }
@@ -86,7 +86,7 @@ UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitat
   UnbalanceResponse response = response_at(speeds, points);
   const DofMap& dofs = assembler.dofs();
   const CVec force = dofs.T.transpose() * load.amplitude;
-  const bool changes = assembler.depends_on_speed() || assembler.depends_on_whirl();
+  const bool changes = assembler.tables_depend_on_speed() || assembler.depends_on_whirl();
   std::optional<DynamicStiffness> stiffness;
   for (Eigen::Index s = 0; s < ns; ++s) {
     const double Omega = speeds[static_cast<std::size_t>(s)], w = load.frequency_at(Omega);
