@@ -2,6 +2,7 @@
 /// The list of contact geometries, and what is asked of any of them.
 
 #include <cmath>
+#include <type_traits>
 #include <variant>
 
 #include "libcontact/geometry/blade_row.hpp"
@@ -69,7 +70,7 @@ template <class Result, class F>
 Result with_wall(const AnyGeometry& any, const Result& of_others, const F& f) {
   return std::visit(
       [&](const auto& g) -> Result {
-        if constexpr (g.is_wall) {
+        if constexpr (std::remove_cvref_t<decltype(g)>::is_wall) {
           return f(g);
         } else {
           return of_others;
