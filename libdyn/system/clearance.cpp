@@ -16,15 +16,21 @@ namespace {
 constexpr int moments = 720;  ///< of a period; the largest distance is right to 1e-5
 constexpr double clearance_tolerance = 1e-9;  ///< of the ends of a range, relative
 
-/// The largest distance in a period of an orbit from a point.
-double farthest(Complex x, Complex y, const Vec2& from) {
-  if (from.isZero(0.0)) return Orbit(x, y).major();
+/// The largest of what is a distance at every place of an orbit.
+template <class Distance>
+double largest_in_period(Complex x, Complex y, const Distance& distance) {
   double largest = 0.0;
   for (int i = 0; i < moments; ++i) {
     const Complex turn = std::polar(1.0, 2.0 * std::numbers::pi * i / moments);
-    largest = std::max(largest, (Vec2((x * turn).real(), (y * turn).real()) - from).norm());
+    largest = std::max(largest, distance(Vec2((x * turn).real(), (y * turn).real())));
   }
   return largest;
+}
+
+/// The largest distance in a period of an orbit from a point.
+double farthest(Complex x, Complex y, const Vec2& from) {
+  if (from.isZero(0.0)) return Orbit(x, y).major();
+  return largest_in_period(x, y, [&](const Vec2& u) { return (u - from).norm(); });
 }
 
 /// Motion of one point less that of another.
@@ -55,12 +61,7 @@ struct Gap {
       return std::abs((*n)(0) * x + (*n)(1) * y) - n->dot(offset);
     }
     if (!is_wall(geometry)) return arm_of(geometry) * farthest(x, y, offset);
-    double largest = 0.0;
-    for (int i = 0; i < moments; ++i) {
-      const Complex now = std::polar(1.0, 2.0 * std::numbers::pi * i / moments);
-      largest = std::max(largest, distance_of({(x * now).real(), (y * now).real()}));
-    }
-    return largest;
+    return largest_in_period(x, y, [&](const Vec2& motion) { return distance_of(motion); });
   }
 
   /// The distance at one instant, of the motion that closes the clearance.

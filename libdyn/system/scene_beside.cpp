@@ -42,8 +42,9 @@ bool same_shapes(const Scene& scene, const Model& model) {
 std::optional<Scene> scene_beside(const Scene& scene, const Model& model) {
   const bool is_at_speed = scene.system.Omega == model.speed;
   if (!is_at_speed && scene.assembler.tables_depend_on_speed()) return std::nullopt;
+  if (!same_shapes(scene, model)) return std::nullopt;
   auto assembler = scene.assembler.with_loads_of(model.structure);
-  if (!assembler || !same_shapes(scene, model)) return std::nullopt;
+  if (!assembler) return std::nullopt;
   System system = scene.system;
   system.Omega = model.speed;
   ReducedSystem reduced = scene.reduced;

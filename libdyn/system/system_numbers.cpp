@@ -38,8 +38,10 @@ void add_contact(const ReducedContact& c, std::vector<Vec>& blocks) {
   for (const double value : {c.rim_speed, c.friction.mu}) blocks.push_back(numbers({value}));
   if (c.friction.tolerance > 0.0) blocks.push_back(numbers({1.0 / c.friction.tolerance}));
   if (const auto n = direction_of(c.geometry)) blocks.push_back(*n);
-  for (const double value : wall_numbers_of(c.geometry, c.clearance)) {
-    if (is_wall(c.geometry)) blocks.push_back(numbers({value}));
+  if (is_wall(c.geometry)) {
+    for (const double value : wall_numbers_of(c.geometry, c.clearance)) {
+      blocks.push_back(numbers({value}));
+    }
   }
   std::visit([&](const auto& law) { add_law(law, blocks); }, c.law);
 }

@@ -122,15 +122,13 @@ struct ContactSlopes {
     J_t->clear(N);
     P phi[P::most_terms];
     share_of_normal(c, phi, N);
-    const auto smooth = mask_of<P>(c.smooth & c.touching);
-    const P factor = c.mu * c.inverse_width;
+    P chi[P::most_terms];
+    if (c.smooth != 0) slope_over_slip(c, chi, N);
     for (int k = 0; k <= N; ++k) {
       J_t->add_dyad(k, product_term(phi, normal_by_depth, k), -y, x, x, y);
       if (!has_H) continue;
       H.add_dyad(k, product_term(phi, normal_by_rate, k), -y, x, x, y);
-      if (c.smooth == 0) continue;
-      const P chi = select(smooth, factor * product_term(c.q, c.cosine2, k), nothing);
-      H.add_dyad(k, chi, -y, x, -y, x);
+      if (c.smooth != 0) H.add_dyad(k, chi[k], -y, x, -y, x);
     }
   }
 
@@ -176,11 +174,9 @@ struct ContactSlopes {
     turn_by(J, phi, N);
     if (has_H) turn_by(H, phi, N);
     if (c.smooth == 0) return;
-    const auto smooth = mask_of<P>(c.smooth & c.touching);
-    const P factor = c.mu * c.inverse_width;
     P chi[P::most_terms], back[P::most_terms], px[P::most_terms], py[P::most_terms];
+    slope_over_slip(c, chi, N);
     for (int k = 0; k <= N; ++k) {
-      chi[k] = select(smooth, factor * product_term(c.q, c.cosine2, k), nothing);
       back[k] = -c.dy[k];
       px[k] = product_term(xx, c.rub->wy, k) - product_term(yx, c.rub->wx, k);
       py[k] = product_term(xy, c.rub->wy, k) - product_term(yy, c.rub->wx, k);
@@ -201,6 +197,16 @@ struct ContactSlopes {
     }
   }
 
+  /// chi = mu q (1 - tanh^2 u) / w, what smoothed friction over r changes by with the slip; zero in
+  /// other lanes.
+  static HWY_ATTR void slope_over_slip(const ContactLanes<P>& c, P* chi, int N) {
+    const auto smooth = mask_of<P>(c.smooth & c.touching);
+    const P factor = c.mu * c.inverse_width;
+    for (int k = 0; k <= N; ++k) {
+      chi[k] = select(smooth, factor * product_term(c.q, c.cosine2, k), P(0.0));
+    }
+  }
+
   static HWY_ATTR void velocity(const ContactLanes<P>& c, P* vx, P* vy, int N) {
     for (int k = 0; k <= N; ++k) {
       vx[k] = P(k + 1.0) * c.dx[k + 1];
@@ -218,9 +224,7 @@ struct ContactSlopes {
     } else {
       const auto smooth = mask_of<P>(c.smooth & c.touching);
       P phi[P::most_terms];
-      for (int k = 0; k <= N; ++k) {
-        phi[k] = select(smooth, c.mu * c.sine[k], k == 0 ? share : P(0.0));
-      }
+      share_of_normal(c, phi, N);
       turn_by(J, phi, N);
       turn_by(H, phi, N);
       add_slip(c, smooth, N, J);
@@ -288,11 +292,8 @@ struct ContactSlopes {
                          SeriesMatrix<P>& to_J) {
     P chi[P::most_terms], a[P::most_terms], b[P::most_terms], px[P::most_terms], py[P::most_terms];
     P vx[P::most_terms], vy[P::most_terms], back[P::most_terms];
-    const P factor = c.mu * c.inverse_width;
-    for (int k = 0; k <= N; ++k) {
-      chi[k] = select(smooth, factor * product_term(c.q, c.cosine2, k), P(0.0));
-      back[k] = -c.dy[k];
-    }
+    slope_over_slip(c, chi, N);
+    for (int k = 0; k <= N; ++k) back[k] = -c.dy[k];
     multiply(chi, c.turn_rate, a, N);
     divide(a, c.s, b, N, smooth);  // chi (d x d') / r^3
     divide(chi, c.r, a, N, smooth);

@@ -204,12 +204,12 @@ HWY_ATTR void Engine<P>::jump_slopes(size_t i, EventKind kind, const Saltation& 
   }
   P function;
   if (kind == EventKind::touch) {
-    function = r - c.clearance;
     if (c.rows.is_plane) {
       c.displacement(y_.data(), u, v);
       function = fma(x, u, y * v) - c.plane_at;
+    } else {
+      function = c.wall ? c.wall->at(x, y).depth : r - c.clearance;
     }
-    if (c.wall) function = c.wall->at(x, y).depth;
   } else {
     if (c.rub) {
       c.rub->lateral(layout().rates_at(y_.data()), u, v);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -15,6 +16,20 @@
 namespace functions_test {
 
 namespace fs = std::filesystem;
+
+/// Calls f with every source of the product, and its path.
+void for_each_source(const std::function<void(const fs::path&, std::istream&)>& f) {
+  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libdata", "libio",
+                             "libverbs", "apps", "python"}) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(WHIRL_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".cpp" && extension != ".hpp" && extension != ".h") continue;
+      std::ifstream file(entry.path());
+      f(entry.path(), file);
+    }
+  }
+}
 
 struct Function {
   std::string head;
@@ -82,19 +97,12 @@ TEST(Functions, AreCountedAndNothingElse) {
 TEST(Architecture, NoFunctionIsTooLong) {
   constexpr int most = 80;
   std::size_t count = 0;
-  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libdata", "libio",
-                             "libverbs", "apps", "python"}) {
-    for (const auto& entry :
-         fs::recursive_directory_iterator(fs::path(WHIRL_SOURCE_DIR) / folder)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".cpp" && extension != ".hpp" && extension != ".h") continue;
-      std::ifstream file(entry.path());
-      for (const Function& f : functions_in(file)) {
-        ++count;
-        EXPECT_LE(f.lines, most) << entry.path() << ": " << f.head;
-      }
+  for_each_source([&](const fs::path& path, std::istream& file) {
+    for (const Function& f : functions_in(file)) {
+      ++count;
+      EXPECT_LE(f.lines, most) << path << ": " << f.head;
     }
-  }
+  });
   EXPECT_GT(count, 5000u);  // the scan found them
 }
 
@@ -158,25 +166,17 @@ TEST(Architecture, NoClassIsTooWide) {
       {"LinearFlow", {26, "tables and what is done with them"}},
   };
   std::map<std::string, int> wide;
-  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libdata", "libio",
-                             "libverbs", "apps", "python"}) {
-    for (const auto& entry :
-         fs::recursive_directory_iterator(fs::path(WHIRL_SOURCE_DIR) / folder)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".cpp" && extension != ".hpp" && extension != ".h") continue;
-      std::ifstream file(entry.path());
-      for (const auto& [name, count] : members_in(file)) {
-        if (count <= most) continue;
-        wide[name] = count;
-        const auto at = known.find(name);
-        EXPECT_NE(at, known.end()) << entry.path() << ": " << name << " has " << count;
-        if (at != known.end()) {
-          EXPECT_LE(count, at->second.members)
-              << entry.path() << ": " << name << ", " << at->second.why;
-        }
+  for_each_source([&](const fs::path& path, std::istream& file) {
+    for (const auto& [name, count] : members_in(file)) {
+      if (count <= most) continue;
+      wide[name] = count;
+      const auto at = known.find(name);
+      EXPECT_NE(at, known.end()) << path << ": " << name << " has " << count;
+      if (at != known.end()) {
+        EXPECT_LE(count, at->second.members) << path << ": " << name << ", " << at->second.why;
       }
     }
-  }
+  });
   for (const auto& [name, members] : known) {
     EXPECT_EQ(wide[name], members.members) << name << " is narrower now: say so here";
   }

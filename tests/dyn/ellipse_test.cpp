@@ -14,6 +14,7 @@
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/tangents.hpp"
 
 namespace whirl::ellipse_test {
 
@@ -158,39 +159,11 @@ TEST(Ellipse, OfEqualAxesIsARing) {
   }
 }
 
-/// Columns of the flow over a revolution, by differences.
-Mat tangent_by_differences(const Scene& scene, const Vec& y) {
-  Mat columns(y.size(), y.size());
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    const double h = 1e-5 * scene.contacts.state_scale()(i);
-    Vec ends[2];
-    for (const int side : {0, 1}) {
-      Vec at = y;
-      at(i) += side == 0 ? h : -h;
-      MotionState state = test::state_of(at);
-      EXPECT_EQ(test::run(scene, state, 1, {.tolerance = 1e-14}).outcome, Outcome::reached_end);
-      ends[side] = state.y;
-    }
-    columns.col(i) = (ends[0] - ends[1]) / (2.0 * h);
-  }
-  return columns;
-}
-
 TEST(Ellipse, HasTheTangentsOfDifferences) {
   for (const MassInEllipse& p : cases()) {
     const Scene scene = p.scene();
     const MotionState state = after(p, 3, {});
-    const Mat expected = tangent_by_differences(scene, state.y);
-    const auto passages = flow_of(scene.contacts).go(std::vector{state.y}, 1, WithTangent::yes);
-    ASSERT_FALSE(passages[0].failure) << passages[0].failure;
-    ASSERT_GE(passages[0].contacts.at(0).impacts, 1.0);
-    const Vec scale = scene.contacts.state_scale();
-    const auto scaled = [&](const Mat& tangent) -> Mat {
-      return scale.cwiseInverse().asDiagonal() * tangent * scale.asDiagonal();
-    };
-    EXPECT_LT(scaled(passages[0].tangent - expected).norm(), 1e-5 * scaled(expected).norm())
-        << passages[0].tangent << "\n\n"
-        << expected;
+    test::expect_tangent_of_differences(scene, state.y);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/tangents.hpp"
 
 namespace whirl::stop_test {
 
@@ -264,24 +265,6 @@ TEST(Stop, IsTheSameByHarmonicBalance) {
               1e-3 * exact.contacts.at(0).max_normal);
 }
 
-/// Columns of the flow over a revolution, by differences.
-Mat tangent_by_differences(const Scene& scene, const Vec& y) {
-  Mat columns(y.size(), y.size());
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    const double h = 1e-5 * scene.contacts.state_scale()(i);
-    Vec ends[2];
-    for (const int side : {0, 1}) {
-      Vec at = y;
-      at(i) += side == 0 ? h : -h;
-      MotionState state = test::state_of(at);
-      EXPECT_EQ(test::run(scene, state, 1, {.tolerance = 1e-14}).outcome, Outcome::reached_end);
-      ends[side] = state.y;
-    }
-    columns.col(i) = (ends[0] - ends[1]) / (2.0 * h);
-  }
-  return columns;
-}
-
 // Every kind of friction and law: forward, creeping, switching (reversals, sticking), damped,
 // Hertz, damped Hertz.
 TEST(Stop, HasTheTangentsOfDifferences) {
@@ -297,18 +280,8 @@ TEST(Stop, HasTheTangentsOfDifferences) {
     const Scene scene = p.scene();
     MotionState state = test::state_of(Vec2(1e-3, 2e-3), Vec2(0.03, -0.02));
     ASSERT_EQ(test::run(scene, state, 3).outcome, Outcome::reached_end);
-    const Mat expected = tangent_by_differences(scene, state.y);
-    const auto passages = flow_of(scene.contacts).go(std::vector{state.y}, 1, WithTangent::yes);
-    ASSERT_FALSE(passages[0].failure) << passages[0].failure;
-    ASSERT_GE(passages[0].contacts.at(0).impacts, 1.0);
-    const Vec scale = scene.contacts.state_scale();
-    const auto scaled = [&](const Mat& tangent) -> Mat {
-      return scale.cwiseInverse().asDiagonal() * tangent * scale.asDiagonal();
-    };
-    EXPECT_LT(scaled(passages[0].tangent - expected).norm(), 1e-5 * scaled(expected).norm())
-        << &p - cases.data() << "\n"
-        << passages[0].tangent << "\n\n"
-        << expected;
+    SCOPED_TRACE(&p - cases.data());
+    test::expect_tangent_of_differences(scene, state.y);
   }
 }
 

@@ -8,6 +8,18 @@ namespace whirl::bad_contact_test {
 
 using test::joined, test::problems;
 
+/// A text has one problem, which is told with these words.
+void expect_one_problem(const std::string& text, const std::string& part) {
+  const auto found = problems(text);
+  ASSERT_EQ(found.size(), 1u) << joined(found);
+  EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
+}
+
+/// A text in which the first of some words is replaced.
+std::string replaced(std::string text, const std::string& of, const std::string& becomes) {
+  return text.replace(text.find(of), of.size(), becomes);
+}
+
 // What a face cannot do, at the key that says so.
 TEST(BadContact, KeysThatDoNotGoWithAFace) {
   const std::string body = R"(format = 1
@@ -29,15 +41,10 @@ face_radius = 1
   EXPECT_EQ(joined(problems(body + tilts)), "");
   EXPECT_EQ(joined(problems(body + tilts + "friction = 0.1\nslip = \"forward\"\n")), "");
   EXPECT_EQ(joined(problems(body + tilts + "friction = 0.1\nslip_tolerance = \"1 mm/s\"\n")), "");
-  const auto expect = [](const std::string& text, const std::string& part) {
-    const auto found = problems(text);
-    ASSERT_EQ(found.size(), 1u) << joined(found);
-    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
-  };
+  const auto& expect = expect_one_problem;
   expect(body + tilts + "friction = 0.1\n",
          "m:8:1: contact.rim.slip_tolerance: found none, but this contact cannot stick: give a "
-         "width to "
-         "the sign of the slip, such as \"1 mm/s\", or say slip = \"forward\"");
+         "width to the sign of the slip, such as \"1 mm/s\", or say slip = \"forward\"");
   expect(body + tilts + "friction = 0.1\nslip_tolerance = 0\n",
          "m:16:18: contact.rim.slip_tolerance");
   expect(body + tilts + "radius = 1\n", "m:15:10: contact.rim.radius: the law says where it slips");
@@ -74,11 +81,7 @@ blade_line_density = 1
   EXPECT_EQ(joined(problems(text + "offset = [0, 0]\n")), "");
   const auto expect = [&](const std::string& of, const std::string& becomes,
                           const std::string& part) {
-    std::string wrong = text;
-    wrong.replace(wrong.find(of), of.size(), becomes);
-    const auto found = problems(wrong);
-    ASSERT_EQ(found.size(), 1u) << joined(found);
-    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
+    expect_one_problem(replaced(text, of, becomes), part);
   };
   expect("blades = 3\n", "", "m:6:1: contact.tips.blades: missing, expected a whole number");
   expect("blades = 3", "blades = 0", "m:12:10: contact.tips.blades: found 0");
@@ -114,20 +117,14 @@ aspect = 1.25
   EXPECT_EQ(joined(problems(text + "friction = 0.1\nradius = 1\nslip = \"forward\"\n")), "");
   const auto expect = [&](const std::string& of, const std::string& becomes,
                           const std::string& part) {
-    std::string wrong = text;
-    wrong.replace(wrong.find(of), of.size(), becomes);
-    const auto found = problems(wrong);
-    ASSERT_EQ(found.size(), 1u) << joined(found);
-    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
+    expect_one_problem(replaced(text, of, becomes), part);
   };
   expect("aspect = 1.25\n", "", "m:5:1: contact.worn.aspect: missing");
   expect("1.25", "0.8", "m:12:10: contact.worn.aspect: found 0.8, expected 1 or more");
   expect("1.25", "-1", "m:12:10: contact.worn.aspect: found -1");
   expect("1.25\n", "1.25\nfriction = 0.1\nradius = 1\n",
          "m:5:1: contact.worn.slip_tolerance: found none, but this contact cannot stick");
-  std::string round = text;
-  round.replace(round.find("ellipse"), 7, "ring");
-  EXPECT_EQ(problems(round),
+  EXPECT_EQ(problems(replaced(text, "ellipse", "ring")),
             (std::vector<std::string>{
                 "m:11:9: contact.worn.angle: goes with geometry = \"stop\" or \"ellipse\"",
                 "m:12:10: contact.worn.aspect: goes with geometry = \"ellipse\""}));
@@ -151,11 +148,7 @@ angle = "-90 deg"
             "");
   const auto expect = [&](const std::string& of, const std::string& becomes,
                           const std::string& part) {
-    std::string wrong = text;
-    wrong.replace(wrong.find(of), of.size(), becomes);
-    const auto found = problems(wrong);
-    ASSERT_EQ(found.size(), 1u) << joined(found);
-    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
+    expect_one_problem(replaced(text, of, becomes), part);
   };
   expect("angle = \"-90 deg\"\n", "",
          "m:5:1: contact.snubber.angle: missing, expected an angle (rad)");
