@@ -49,7 +49,7 @@ struct SeriesMatrix {
 ///   beta = N_v / s,   alpha = (N_d - q) / s - beta r' / r,   s = r^2,
 ///
 /// with N_d, N_v the derivatives of the law by depth and rate; friction adds tau's part. The forced
-/// change of tau while sticking is not in them (Engine::stick_column).
+/// change of tau while sticking is not in them (Sticking::add_to_column).
 template <class P>
 struct ContactSlopes {
   SeriesMatrix<P> J, H;

@@ -12,13 +12,11 @@
 
 #include "libdyn/taylor/sloped-inl.h"
 // after the number that they are for
-#include "libdyn/taylor/engine_bodies-inl.h"
 #include "libdyn/taylor/engine_events-inl.h"
-#include "libdyn/taylor/engine_films-inl.h"
-#include "libdyn/taylor/engine_series-inl.h"
-#include "libdyn/taylor/engine_slopes-inl.h"
 #include "libdyn/taylor/engine_step-inl.h"
-#include "libdyn/taylor/engine_tangents-inl.h"
+#include "libdyn/taylor/motion_bodies-inl.h"
+#include "libdyn/taylor/slope_carrier-inl.h"
+#include "libdyn/taylor/variation_films-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {

@@ -10,12 +10,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "libdyn/taylor/engine_bodies-inl.h"
 #include "libdyn/taylor/engine_events-inl.h"
-#include "libdyn/taylor/engine_films-inl.h"
-#include "libdyn/taylor/engine_series-inl.h"
 #include "libdyn/taylor/engine_step-inl.h"
-#include "libdyn/taylor/engine_tangents-inl.h"
+#include "libdyn/taylor/motion_bodies-inl.h"
+#include "libdyn/taylor/variation_films-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {

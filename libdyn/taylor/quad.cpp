@@ -6,12 +6,10 @@
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/quad_pack.hpp"
 // after the pack that they are for
-#include "libdyn/taylor/engine_bodies-inl.h"
 #include "libdyn/taylor/engine_events-inl.h"
-#include "libdyn/taylor/engine_films-inl.h"
-#include "libdyn/taylor/engine_series-inl.h"
 #include "libdyn/taylor/engine_step-inl.h"
-#include "libdyn/taylor/engine_tangents-inl.h"
+#include "libdyn/taylor/motion_bodies-inl.h"
+#include "libdyn/taylor/variation_films-inl.h"
 
 namespace whirl::inline dyn {
 

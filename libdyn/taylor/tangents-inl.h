@@ -40,7 +40,7 @@ struct Tangents {
   };
   /// The series of one column; two go side by side, so that slopes are loaded once for both.
   struct Track {
-    std::vector<P> terms;  ///< as Engine::term
+    std::vector<P> terms;  ///< as MotionLanes::terms
     std::vector<Column> contacts;
     /// A film as one column moves it: displacement and velocity.
     struct FilmColumn {

@@ -1,14 +1,14 @@
-// Series of the engine for a few bodies with one contact between them, the commonest small model:
+// Series for a few bodies with one contact between them, the commonest small model:
 // everything about an order that fits stays in registers.
 
-#if defined(WHIRL_ENGINE_BODIES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef WHIRL_ENGINE_BODIES_INL_H
-#undef WHIRL_ENGINE_BODIES_INL_H
+#if defined(WHIRL_MOTION_BODIES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_MOTION_BODIES_INL_H
+#undef WHIRL_MOTION_BODIES_INL_H
 #else
-#define WHIRL_ENGINE_BODIES_INL_H
+#define WHIRL_MOTION_BODIES_INL_H
 #endif
 
-#include "libdyn/taylor/engine-inl.h"
+#include "libdyn/taylor/motion_series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
@@ -32,23 +32,25 @@ HWY_ATTR HWY_INLINE void displacement(const P* ux, const P* uy, const P* x, P& t
 ///
 /// V is P, or its value alone where the linear part and the contact's rows have no slopes.
 ///
-/// Every number is made by the operations of series_of_any in their order: a lane must not notice
+/// Every number is made by the operations of find_of_any in their order: a lane must not notice
 /// which of the two its neighbors ask for.
 template <class P>
 template <int Bodies, bool Isotropic, class V, class Law>
-HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
+HWY_ATTR void MotionSeries<P>::find_of_bodies(Law& law) {
   constexpr int n = 2 * Bodies;
-  ContactLanes<P>& c = contacts_[0];
-  std::copy(y_.begin(), y_.end(), term(0));
-  find_load<V>();
+  const int N = m_.N;
+  ContactLanes<P>& c = m_.contacts[0];
+  std::copy(m_.y.begin(), m_.y.end(), m_.term(0));
+  m_.equations.template find_load<V>(m_.clock);
   // none of these overlap, which the compiler cannot know of registers in memory
   P* __restrict dx = c.dx, * __restrict dy = c.dy, * __restrict s = c.s, * __restrict r = c.r;
   P* __restrict N_of = c.N, * __restrict q = c.q;
   const P *ux = c.ux.data(), *uy = Isotropic ? ux : c.uy.data();
   const P *bx = c.bx.data(), *by = Isotropic ? bx : c.by.data();
-  const P *K = equations_.K.data(), *D = equations_.damping.data(), *load = load_.data();
-  const Mask in_touch = c.in_touch;
-  P *now = term(0), *rate = term(1), *next = term(2);
+  const P *K = m_.equations.K.data(), *D = m_.equations.damping.data(),
+          *load = m_.equations.load_terms.data();
+  const typename P::Mask in_touch = c.in_touch;
+  P *now = m_.term(0), *rate = m_.term(1), *next = m_.term(2);
 
   P acceleration[n];
   const auto accelerate = [&](const P* newest) HWY_ATTR {
@@ -92,7 +94,7 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
     } else if (k > 0) {
       s[k] = square_of<P>(dx, dy, k);
     }
-    const Number scale = twice_integrated<P>(k);
+    const typename P::Number scale = twice_integrated<P>(k);
     P newest[n];
     each<n>(n, [&](int i) HWY_ATTR { next[i] = newest[i] = acceleration[i] * scale; });
     displacement<Bodies, V>(ux, uy, newest, dx[k + 2], dy[k + 2]);

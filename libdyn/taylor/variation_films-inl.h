@@ -1,52 +1,46 @@
-// What oil films do to the tangents of the engine.
+// What oil films do to the variation.
 
-#if defined(WHIRL_ENGINE_FILMS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef WHIRL_ENGINE_FILMS_INL_H
-#undef WHIRL_ENGINE_FILMS_INL_H
+#if defined(WHIRL_VARIATION_FILMS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_VARIATION_FILMS_INL_H
+#undef WHIRL_VARIATION_FILMS_INL_H
 #else
-#define WHIRL_ENGINE_FILMS_INL_H
+#define WHIRL_VARIATION_FILMS_INL_H
 #endif
 
-#include "libdyn/taylor/engine-inl.h"
+#include "libdyn/taylor/variation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
-/// Ends a trajectory whose journal is not inside its bearing.
-template <class P>
-HWY_ATTR void Engine<P>::fail_by_film(int l, const ReducedFilm& film) {
-  fail(l, Outcome::left_bearing, left_bearing_text(film).c_str());
-}
-
 /// Finds the slopes of the films and adds the squares of the rates that they lend the tangents;
 /// shortens the step where the slopes change faster than the motion.
 template <class P>
-HWY_ATTR void Engine<P>::find_film_slopes(const P& h, P& square, P& longest) {
-  auto& t = *tangents_;
-  for (size_t i = 0; i < films_.size(); ++i) {
-    FilmLanes<P>& film = *films_[i];
+HWY_ATTR void Variation<P>::find_film_slopes(const P& h, P& square, P& longest) {
+  Tangents<P>& t = tangents_;
+  for (size_t i = 0; i < m_.films.size(); ++i) {
+    FilmLanes<P>& film = *m_.films[i];
     auto& [J, H] = t.film_slopes[i];
     film.find_slopes(J, H, N);
     const P damping = film.gain * (H.size(0) + H.size(1) * h);
     square = square + fma(damping, damping, film.gain * (J.size(0) + J.size(1) * h));
-    const P last = max(film.gain * J.size(N), P(1e-280)) / (rate_ * P(N + 1.0));
+    const P last = max(film.gain * J.size(N), P(1e-280)) / (m_.clock.rate * P(N + 1.0));
     longest = min(longest, rough_exp2((P(log2_tolerance_) - rough_log2(last)) * P(1.0 / (N + 1))));
   }
 }
 
 /// Integral of trace(H U B) of all films over the step.
 template <class P>
-HWY_ATTR P Engine<P>::film_divergence(const P& h) {
+HWY_ATTR P Variation<P>::film_divergence(const P& h) {
   P sum(0.0);
-  for (size_t i = 0; i < films_.size(); ++i) {
-    const FilmLanes<P>& film = *films_[i];
-    const SeriesMatrix<P>& H = tangents_->film_slopes[i].H;
+  for (size_t i = 0; i < m_.films.size(); ++i) {
+    const FilmLanes<P>& film = *m_.films[i];
+    const SeriesMatrix<P>& H = tangents_.film_slopes[i].H;
     P xx(0.0), xy(0.0), yx(0.0), yy(0.0);  // of U B
-    work_.assign(static_cast<size_t>(n_), P(0.0));
+    work_.assign(static_cast<size_t>(m_.n), P(0.0));
     film.push(work_.data(), P(1.0), P(0.0));
     film.displacement(work_.data(), xx, yx);
-    work_.assign(static_cast<size_t>(n_), P(0.0));
+    work_.assign(static_cast<size_t>(m_.n), P(0.0));
     film.push(work_.data(), P(0.0), P(1.0));
     film.displacement(work_.data(), xy, yy);
     P integral(0.0);
@@ -61,12 +55,12 @@ HWY_ATTR P Engine<P>::film_divergence(const P& h) {
 
 /// Adds coefficient k of the films' share to the accelerations of two columns.
 template <class P>
-HWY_ATTR void Engine<P>::add_film_slopes(int k, P* to_a, P* to_b) {
-  auto& t = *tangents_;
+HWY_ATTR void Variation<P>::add_film_slopes(int k, P* to_a, P* to_b) {
+  Tangents<P>& t = tangents_;
   auto& [first, second] = t.tracks;
   const P whole(k + 1.0);
-  for (size_t i = 0; i < films_.size(); ++i) {
-    const FilmLanes<P>& film = *films_[i];
+  for (size_t i = 0; i < m_.films.size(); ++i) {
+    const FilmLanes<P>& film = *m_.films[i];
     auto &u = first.films[i], &w = second.films[i];
     for (auto [column, track] : {std::pair(&u, &first), std::pair(&w, &second)}) {
       P vx, vy;
