@@ -13,9 +13,10 @@ namespace whirl::inline contact {
 struct Contact {
   std::string name;
   Station at;
-  Station against;             ///< the ground or a body
-  double clearance = 0.0;      ///< radius of the clearance circle, of a face: axial [m]
-  Vec2 offset = Vec2::Zero();  ///< center of the clearance circle [m]
+  Station against;  ///< the ground or a body
+  double clearance =
+      0.0;  ///< of a ring its radius, of an ellipse half the short axis, of a face axial [m]
+  Vec2 offset = Vec2::Zero();  ///< middle of the clearance [m]
   Friction friction;
   AnyContactLaw<> law;
   AnyGeometry geometry{};  ///< of a law that has none of its own

@@ -124,15 +124,15 @@ ContactGap<T> gap_to_wall(const GapMotion<T>& m, const WallNumbers<T>& of, const
   using std::sqrt;
   ContactGap<T> g;
   const T square = Wall::square(m.d[0], m.d[1], of);
-  if (value_of(square) > 0.0) {
+  if (value_of(square) == 0.0) {  // the middle; what is no number is none below, too
+    g.r = T(0.0);
+    g.depth = -clearance;
+    g.n = {T(1.0), T(0.0)};
+  } else {
     const WallGap<T> at = Wall::wall(m.d[0], m.d[1], of);
     g.r = clearance * sqrt(square);
     g.depth = at.depth;
     g.n = {at.nx, at.ny};
-  } else {
-    g.r = T(0.0);
-    g.depth = -clearance;
-    g.n = {T(1.0), T(0.0)};
   }
   const auto t = g.t();
   g.rate = g.n[0] * m.w[0] + g.n[1] * m.w[1];

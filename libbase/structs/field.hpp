@@ -35,7 +35,7 @@ constexpr Field<S, T> optional(std::string_view name, T S::*member, std::string_
   return {name, member, unit, range, meaning, false, true};
 }
 
-/// An optional key; if it is left out, something else is given or found in its place.
+/// An optional key without a default: left out, something else is given or found, or nothing is.
 template <class S, class T>
 constexpr Field<S, T> alternative(std::string_view name, T S::*member, std::string_view unit,
                                   Range range, std::string_view meaning) {

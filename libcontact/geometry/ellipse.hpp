@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tuple>
+#include <utility>
 
 #include "libbase/structs/field.hpp"
 #include "libcontact/geometry.hpp"
@@ -54,17 +55,23 @@ struct Ellipse {
     return {std::cos(angle), std::sin(angle), 1.0 / (aspect * clearance), 1.0 / clearance};
   }
 
+  /// u / a and v / b.
+  template <class T>
+  WHIRL_INLINE static auto scaled(const T& x, const T& y, const WallNumbers<T>& of) {
+    const auto& [cosine, sine, a, b] = of;
+    return std::pair{(cosine * x + sine * y) * a, (cosine * y - sine * x) * b};
+  }
   template <class T>
   WHIRL_INLINE static auto square(const T& x, const T& y, const WallNumbers<T>& of) {
-    const auto& [cosine, sine, a, b] = of;
-    const auto u = (cosine * x + sine * y) * a, v = (cosine * y - sine * x) * b;
-    return u * u + v * v;
+    const auto scales = scaled(x, y, of);
+    return scales.first * scales.first + scales.second * scales.second;
   }
   template <class T>
   WHIRL_INLINE static WallGap<T> wall(const T& x, const T& y, const WallNumbers<T>& of) {
     using std::sqrt;
     const auto& [cosine, sine, a, b] = of;
-    const auto u = (cosine * x + sine * y) * a, v = (cosine * y - sine * x) * b;
+    const auto scales = scaled(x, y, of);
+    const auto &u = scales.first, &v = scales.second;
     const auto square = u * u + v * v, rho = sqrt(square);
     const auto gu = u * a, gv = v * b;  // rho grad rho
     const auto g = sqrt(gu * gu + gv * gv);

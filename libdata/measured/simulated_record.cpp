@@ -111,10 +111,7 @@ MeasuredRecord simulated_record(const Run& run, const MeasurementSetup& setup,
     channels.push_back({key->channel, ""});
     names.push_back(key->channel);
   }
-  const double spacing = recording.period / recording.samples;
-  MeasuredRecord record{
-      .rate = 1.0 / spacing,
-      .start = recording.period * static_cast<double>(recording.first_revolution)};
+  MeasuredRecord record{.rate = 1.0 / recording.spacing(), .start = recording.time(0)};
   ChannelPlaces places(names);
   std::vector<std::size_t> at;
   for (std::size_t i = 0; i < signals.size(); ++i) at.push_back(places.place(i));

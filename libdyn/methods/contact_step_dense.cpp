@@ -78,10 +78,8 @@ bool ContactStep::dense_piece(const MotionState& from, const Part& part, double 
       double scale = 1.0;
       for (int k = 0; k < points && share < 1.0; ++k, scale *= share) powers.col(k) *= scale;
       Step step;
-      step.revolution = from.revolution;
-      step.phase = from.phase + part.start * h * rate;
-      step.h = share * part.width * h;
-      step.turn = step.h * rate;
+      step.set(system_.clock(), {from.phase + part.start * h * rate, from.revolution},
+               share * part.width * h);
       step.q = layout.eta(powers);
       step.v = layout.rate(powers);
       step.contacts = from.contacts;

@@ -99,10 +99,7 @@ class Stepper {
     p.col(0) += change;
     times_s();
     p.col(0) += from.y;
-    step.revolution = from.revolution;
-    step.phase = from.phase;
-    step.h = h_;
-    step.turn = h_ * rate;
+    step.set(system_.clock(), from.instant(), h_);
     step.q = layout_.eta(p);
     step.v = layout_.rate(p);
     step.contacts = from.contacts;
@@ -296,7 +293,7 @@ Dop853Run::Result Dop853Run::accept(const std::optional<Event>& event, bool ends
   instant_events_ = 0;
   longest_ = std::numeric_limits<double>::infinity();
   state_.y = stepper_.end();
-  state_.phase += step_.turn;
+  state_.phase = step_.end_angle();
   if (ends_revolution) begin_revolution();
   ++result_.cost.steps;
   watcher_.moved_on();

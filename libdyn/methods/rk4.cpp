@@ -81,10 +81,7 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
       }
       ++cost.steps;
       const bool ends_revolution = i + 1.0 == count;
-      step.revolution = state.revolution;
-      step.phase = phase;
-      step.h = h;
-      step.turn = turn;
+      step.set(system.clock(), {phase, state.revolution}, h);
       if (observer) step.contacts = system.classify({phase, state.revolution}, y.data());
       derivative(phase + turn, s.end, s.k2);  // of the end, where the next step starts
       if (observer) dense(y, s.k1, s.end, s.k2, step);

@@ -167,10 +167,7 @@ Integration Motion::run(const Solver& solver, void* memory, long revolutions,
     }
     const bool has_moved = t > before;
     if (has_moved) {
-      step.revolution = state_.revolution;
-      step.phase = state_.phase;
-      step.h = t - before;
-      step.turn = step.h * rate;
+      step.set(system_.clock(), state_.instant(), t - before);
       step.contacts = state_.contacts;
       if (observer) dense(solver, memory, before, t, step);
       ++result_.cost.steps;

@@ -13,7 +13,7 @@ ResponseSpectra::ResponseSpectra(const Scene& scene, const Recording& recording)
   const auto coordinates = recording.eta.rows();
   eta_.resize(coordinates, n);
   mean_.resize(coordinates);
-  const double spacing = recording.period / recording.samples;
+  const double spacing = recording.spacing();
   for (Eigen::Index i = 0; i < coordinates; ++i) {
     const Vec samples = recording.eta.row(i).tail(n).transpose();
     mean_(i) = samples.mean();

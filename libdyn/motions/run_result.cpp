@@ -62,7 +62,7 @@ RunFacts run_facts(const Simulation& simulation) {
   const Cost& cost = simulation.integration.cost;
   return {.samples_per_revolution = r.samples,
           .revolutions = static_cast<double>(r.revolutions),
-          .period = r.period,
+          .period = r.clock.period(),
           .steps = static_cast<double>(cost.steps),
           .evaluations = static_cast<double>(cost.evaluations),
           .events = static_cast<double>(cost.events),
@@ -71,12 +71,7 @@ RunFacts run_facts(const Simulation& simulation) {
 
 MotionRecord recorded_motion(const Run& run) {
   const Recording& r = run.simulation.recording;
-  MotionRecord t{.coordinates = r.eta, .basis = run.scene.displacement_map()};
-  t.time.resize(r.eta.cols());
-  for (Eigen::Index j = 0; j < t.time.size(); ++j) {
-    t.time(j) =
-        r.period * (static_cast<double>(r.first_revolution) + static_cast<double>(j) / r.samples);
-  }
+  MotionRecord t{.time = r.time, .coordinates = r.eta, .basis = run.scene.displacement_map()};
   for (const NamedPoint& p : run.stations) {
     const Mat xy = motion_of(run, p.point);
     t.stations.push_back({p.label(), xy.col(0), xy.col(1)});

@@ -18,14 +18,19 @@ class Sampler {
     recording.eta.resize(system.coordinates(), total);
     recording.normal.setZero(system.owners(), total);
     recording.friction.setZero(system.owners(), total);
+    recording.time.resize(total);
+    for (Eigen::Index j = 0; j < total; ++j) {
+      recording.time(j) =
+          recording.clock.time_after(static_cast<double>(recording.first_revolution) +
+                                     static_cast<double>(j) / recording.samples);
+    }
   }
 
   void add(const Step& step) {
-    const double spacing = 2.0 * std::numbers::pi / recording_.samples;
     while (next_ < recording_.eta.cols()) {
       const long revolution = recording_.first_revolution + next_ / recording_.samples;
-      const double phase = spacing * static_cast<double>(next_ % recording_.samples);
-      if (revolution != step.revolution || phase >= step.phase + step.turn * (1.0 + 1e-14)) return;
+      const double phase = recording_.angle(next_ % recording_.samples);
+      if (revolution != step.revolution || phase >= step.angle(1.0 + 1e-14)) return;
       // a sample at the very start of a revolution belongs to the step that begins there
       const double s = step.after_turn(phase - step.phase);
       step.at(s, y_.data());
@@ -47,6 +52,7 @@ class Sampler {
   void close() {
     recording_.revolutions = next_ / recording_.samples;
     const auto whole = recording_.revolutions * recording_.samples;
+    recording_.time.conservativeResize(whole);
     recording_.eta.conservativeResize(Eigen::NoChange, whole);
     recording_.normal.conservativeResize(Eigen::NoChange, whole);
     recording_.friction.conservativeResize(Eigen::NoChange, whole);
@@ -83,7 +89,7 @@ Simulation simulate(const Scene& scene, MotionState start, const SimulationOptio
   }
   Recording& recording = result.recording;
   recording.samples = options.samples;
-  recording.period = system.period();
+  recording.clock = system.clock();
   recording.first_revolution = result.end.revolution;
   if (total.outcome == Outcome::reached_end) {
     Sampler sampler(system, recording, options.revolutions);

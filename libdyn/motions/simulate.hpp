@@ -2,6 +2,7 @@
 /// A simulation: transient, then a recorded stretch with its contact measures.
 
 #include <functional>
+#include <numbers>
 
 #include "libdyn/methods/methods.hpp"
 #include "libdyn/system/contact_measures.hpp"
@@ -21,15 +22,23 @@ struct SimulationOptions {
   std::function<bool()> is_stopped;
 };
 
-/// A recorded stretch of motion in reduced coordinates.
+/// A recorded stretch of motion in reduced coordinates, at equal angles.
 struct Recording {
-  int samples = 0;            ///< per revolution
-  long revolutions = 0;       ///< whole ones that were recorded
-  double period = 0.0;        ///< of a revolution [s]
+  int samples = 0;       ///< per revolution
+  long revolutions = 0;  ///< whole ones that were recorded
+  Clock clock{};
   long first_revolution = 0;  ///< number of the first one since the start
-  Mat eta;                    ///< n x (revolutions * samples), sample j at phase 2 pi j / samples
+  Vec time;                   ///< of every sample, since the start [s]
+  Mat eta;                    ///< n x (revolutions * samples)
   Mat normal, friction;       ///< contact forces, contacts x samples [N]; friction signed along t
   std::vector<ContactMeasure> contacts;
+
+  /// Angle of the rotor at a sample, from the start of the first revolution [rad].
+  double angle(Eigen::Index sample) const {
+    return 2.0 * std::numbers::pi * static_cast<double>(sample) / samples;
+  }
+  double speed() const { return clock.speed(); }               ///< at all samples [rad/s]
+  double spacing() const { return clock.period() / samples; }  ///< between samples [s]
 };
 
 struct Simulation {

@@ -68,7 +68,7 @@ std::vector<RunningClearance> largest_distances(const Model& model, const Assemb
 
 /// The same clearances beside the linear response to unbalance.
 ///
-/// The distance is the largest in a period: of the orbit from the middle of the clearance circle,
+/// The distance is the largest in a period: of the orbit from the middle of the clearance,
 /// with a stop towards the stop, with a face that of its rim along the axis. Static sag is not part
 /// of the response. An end of a range is the speed at which the distance is the clearance, to 1e-9
 /// of the speed, or the first or last of the speeds.

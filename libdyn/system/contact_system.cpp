@@ -82,14 +82,6 @@ void ContactSystem::set_group(ContactStates& states, int i, const ContactState& 
   }
 }
 
-double ContactSystem::period() const {
-  return 2.0 * std::numbers::pi / phase_rate();
-}
-
-double ContactSystem::phase_rate() const {
-  return Omega_ != 0.0 ? std::abs(Omega_) : 2.0 * std::numbers::pi;
-}
-
 void ContactSystem::smooth_acceleration(const Instant& at, const double* y, double* a) const {
   Eigen::Map<Vec> result(a, coordinates());
   const auto eta = layout().eta(y), rate = layout().rate(y);

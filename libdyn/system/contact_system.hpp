@@ -17,7 +17,7 @@ namespace whirl::inline dyn {
 
 /// What a contact is doing.
 enum class Touch : unsigned char {
-  apart,     ///< the rotor is inside the clearance circle
+  apart,     ///< the rotor is inside the clearance
   receding,  ///< still beyond it, but the force would pull: there is none (damped laws)
   sliding,   ///< in touch; friction is mu N times a share that is known
   sticking   ///< in touch; friction is what keeps the slip velocity zero
@@ -100,11 +100,10 @@ class ContactSystem {
   int coordinates() const { return static_cast<int>(K_.rows()); }
   StateLayout layout() const { return StateLayout(K_.rows()); }
   int size() const { return layout().size(); }
-  double Omega() const { return Omega_; }
-  /// Duration of a revolution [s]; one second if the rotor does not spin.
-  double period() const;
-  /// Rate of the phase [rad/s]: Omega, or 2 pi if the rotor does not spin.
-  double phase_rate() const;
+  const Clock& clock() const { return clock_; }
+  double Omega() const { return clock_.speed(); }
+  double period() const { return clock_.period(); }
+  double phase_rate() const { return clock_.rate(); }
 
   const Mat& K() const { return K_; }
   const Mat& D() const { return D_; }
@@ -187,7 +186,7 @@ class ContactSystem {
   std::vector<ReducedExcitation> excitations_;
   std::vector<ReducedContact> contacts_;
   std::vector<ReducedFilm> films_;
-  double Omega_ = 0.0;
+  Clock clock_;
   double length_scale_ = 1.0;
   Vec scale_;
 };

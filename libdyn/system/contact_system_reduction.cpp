@@ -85,7 +85,7 @@ struct ContactSystem::Reduction {
 ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
                              const std::vector<Contact>& contacts,
                              const std::vector<OilFilm>& films)
-    : Omega_(reduced.Omega) {
+    : clock_(reduced.Omega) {
   const Reduction by(assembler, reduced);
   K_ = by.mass.solve(reduced.stiffness());
   D_ = by.mass.solve(reduced.D());
@@ -99,11 +99,11 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
 void ContactSystem::add_loads(const Reduction& by) {
   const Vec none = Vec::Zero(coordinates());
   excitations_ = {{.cosine = none, .sine = none},
-                  {.order = 1.0, .frequency = Omega_, .ratio = 1.0, .cosine = none, .sine = none}};
-  for (const Excitation& f : excitations_at(by.assembler, Omega_)) {
+                  {.order = 1.0, .frequency = Omega(), .ratio = 1.0, .cosine = none, .sine = none}};
+  for (const Excitation& f : excitations_at(by.assembler, Omega())) {
     if (f.amplitude.isZero(0.0)) continue;
     const Vec cosine = by.load(f.amplitude.real());  // Re(u e^(i alpha)) = Re u cos - Im u sin
-    if (f.frequency_at(Omega_) == 0.0) {  // what turns with a rotor that stands is constant
+    if (f.frequency_at(Omega()) == 0.0) {  // what turns with a rotor that stands is constant
       excitations_[0].cosine += cosine;
       continue;
     }
@@ -114,7 +114,7 @@ void ContactSystem::add_loads(const Reduction& by) {
       continue;
     }
     const double ratio = frequency_ratio(by.assembler.structure(), f, phase_rate());
-    excitations_.push_back({f.order, f.frequency_at(Omega_), ratio, cosine, sine});
+    excitations_.push_back({f.order, f.frequency_at(Omega()), ratio, cosine, sine});
   }
 }
 
@@ -124,9 +124,9 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
   ReducedContact r{.name = c.name,
                    .offset = c.offset,
                    .clearance = c.clearance,
-                   .rim_speed = rim_speed_of(geometry, Omega_, c.friction),
+                   .rim_speed = rim_speed_of(geometry, Omega(), c.friction),
                    .friction = c.friction,
-                   .law = law_at(Omega_, c.law, c.friction),
+                   .law = law_at(Omega(), c.law, c.friction),
                    .geometry = geometry,
                    .owner = owner};
   r.U = closing_rows(c, by.assembler, by.reduced.dofs) * by.reduced.Phi;
@@ -138,14 +138,14 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
     r.B_t = by.mass.solve(r.V.transpose());
   }
   for (int i = 0; i < places_of(geometry); ++i) {
-    r.geometry = place_of(geometry, i, Omega_);
+    r.geometry = place_of(geometry, i, Omega());
     r.place = i;
     contacts_.push_back(r);
   }
 }
 
 void ContactSystem::add_film(const Reduction& by, const OilFilm& film) {
-  ReducedFilm r{at_speed(film, Omega_), film.name, {}, {}};
+  ReducedFilm r{at_speed(film, Omega()), film.name, {}, {}};
   r.U = relative_rows(Closing::lateral, by.reduced.dofs, by.assembler.point(film.at),
                       by.assembler.point(film.against)) *
         by.reduced.Phi;

@@ -2,17 +2,9 @@
 /// A load of a reduced system, over the angle that it has gone through.
 
 #include "libbase/numerics/linalg.hpp"
+#include "libdyn/system/clock.hpp"
 
 namespace whirl::inline dyn {
-
-/// When: a phase within a revolution, and which revolution that is. Only loads that do not repeat
-/// with the revolution ask for the latter.
-struct Instant {
-  double phase = 0.0;  ///< [rad]
-  long revolution = 0;
-
-  Instant(double at_phase, long in_revolution = 0) : phase(at_phase), revolution(in_revolution) {}
-};
 
 /// cosine cos(alpha) + sine sin(alpha), alpha = ratio times the angle of the rotor.
 struct ReducedExcitation {

@@ -85,7 +85,7 @@ Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, do
   const SparseLu lu(held_matrix(K, U, s));
   if (!lu.is_regular()) throw NumericalError("the stiffness is singular at this speed");
   Mat wanted = Mat::Zero(n + ports, 1 + ports);
-  wanted.col(0).head(n) = p.system.dofs.T.transpose() * static_load(assembler);
+  wanted.col(0).head(n) = p.system.dofs.T.transpose() * static_load(assembler, Omega);
   wanted.bottomRightCorner(ports, ports).diagonal().setConstant(s);
   const Mat found = lu.solve(wanted);
   p.held.rest = found.col(0).head(n);
@@ -118,7 +118,7 @@ struct FilmEquilibrium::State {
 };
 
 std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) {
-  if (!ports || assembler.depends_on_speed()) {
+  if (!ports || assembler.depends_on_speed() || !is_static_load_steady(assembler)) {
     ports = std::make_shared<const Ports>(ports_of(films, assembler, Omega));
   }
   std::vector<FilmAtSpeed> at_this_speed;
@@ -128,7 +128,7 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
   RotorOnFilms rotor{.Omega = Omega,
                      .system = ports->system,
                      .q = ports->held.rest + ports->held.shapes * place->w,
-                     .load = static_load(assembler)};
+                     .load = static_load(assembler, Omega)};
   rotor.system.Omega = Omega;
   for (std::size_t i = 0; i < films.size(); ++i) {
     rotor.films.push_back(running_film(films[i], Omega, place->journals[i]));

@@ -27,16 +27,24 @@ struct Step {
   long revolution = 0;
   double phase = 0.0;  ///< at the start [rad]
   double h = 0.0;      ///< duration [s]
-  double turn = 0.0;   ///< by which the rotor turns in it [rad]
   Mat q, v;            ///< coefficients of eta and eta', n x (degree + 1)
   ContactStates contacts;
 
+  /// Where it starts, and how long it takes.
+  void set(const Clock& clock, const Instant& from, double duration) {
+    revolution = from.revolution;
+    phase = from.phase;
+    h = duration;
+    turn_ = clock.turn(duration);
+  }
   /// Angle of the rotor, from the start of the revolution [rad].
-  double angle(double s) const { return phase + s * turn; }
+  double angle(double s) const { return phase + s * turn_; }
+  /// The same at its end [rad].
+  double end_angle() const { return phase + turn_; }
   Instant instant(double s) const { return {angle(s), revolution}; }
   /// The s at which the rotor has turned by an angle since the start [rad], of one beyond the step
   /// the nearest end.
-  double after_turn(double by) const { return std::clamp(by / turn, 0.0, 1.0); }
+  double after_turn(double by) const { return std::clamp(by / turn_, 0.0, 1.0); }
 
   /// State at 0 <= s <= 1.
   void at(double s, double* y) const {
@@ -47,6 +55,9 @@ struct Step {
     rate = v.col(v.cols() - 1);
     for (auto k = v.cols() - 2; k >= 0; --k) rate = rate * s + v.col(k);
   }
+
+ private:
+  double turn_ = 0.0;  // by which the rotor turns in it [rad]
 };
 
 /// Called with every step; returns false to stop the integration after it.

@@ -192,10 +192,7 @@ template <class P>
 HWY_ATTR Step step_of(MotionLanes<P>& m, const ContactSystem& system, long revolution, double h) {
   Step step;
   const int N = m.N;
-  step.revolution = revolution;
-  step.phase = m.clock.phase(0);
-  step.h = h;
-  step.turn = h * system.phase_rate();
+  step.set(system.clock(), {m.clock.phase(0), revolution}, h);
   step.q.resize(m.n, N + 3);
   step.v.resize(m.n, N + 2);
   double power = 1.0;

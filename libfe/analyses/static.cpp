@@ -38,7 +38,7 @@ void require_supports(const Assembler& assembler, double Omega, std::string_view
 StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
   require_supports(assembler, Omega, "the static sag needs");
   const System system = assembler.uncondensed(Omega, 0.0);
-  const Vec load = static_load(assembler);
+  const Vec load = static_load(assembler, Omega);
   const SparseLu solver(system.stiffness());
   if (!solver.is_regular()) {
     throw NumericalError("the stiffness is singular at this speed");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
@@ -30,20 +32,26 @@ void put(const CVec& full, const DofMap& dofs, Eigen::Index speed, UnbalanceResp
 
 struct UnbalanceSolver::State {
   const Assembler& assembler;
-  CVec force;   ///< of unbalance over Omega^2, in the coordinates of the system
-  CVec steady;  ///< of the bow and of forces of order 1, likewise; empty: none
+  /// Of order 1, those of one growth together, in the coordinates of the system.
+  std::vector<Excitation> loads;
   std::optional<DynamicStiffness> stiffness{};  ///< of the last speed, if it depends on that
 };
 
 UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
   const Sparse& T = assembler.dofs().T;
-  CVec force = CVec::Zero(T.cols()), steady;
+  std::vector<Excitation> loads{{.growth = Growth::unbalance, .amplitude = CVec::Zero(T.cols())}};
   for (const Excitation& e : synchronous_excitations(assembler)) {
     const CVec own = T.transpose() * e.amplitude;
-    CVec& sum = e.growth == Growth::unbalance ? force : steady;
-    sum = sum.size() > 0 ? CVec(sum + own) : own;
+    const auto same = std::find_if(loads.begin(), loads.end(), [&](const Excitation& other) {
+      return other.growth == e.growth;
+    });
+    if (same == loads.end()) {
+      loads.push_back({.growth = e.growth, .amplitude = own});
+    } else {
+      same->amplitude += own;
+    }
   }
-  state_ = std::make_unique<State>(State{assembler, std::move(force), std::move(steady)});
+  state_ = std::make_unique<State>(State{assembler, std::move(loads)});
 }
 
 UnbalanceSolver::~UnbalanceSolver() = default;
@@ -54,13 +62,18 @@ const DofMap& UnbalanceSolver::dofs() const {
 
 std::optional<CVec> UnbalanceSolver::at(double Omega) {
   State& s = *state_;
-  if (Omega == 0.0 && s.steady.size() == 0) return CVec(CVec::Zero(dofs().full_size));
+  if (std::all_of(s.loads.begin(), s.loads.end(),
+                  [&](const Excitation& e) { return e.growth_at(Omega) == 0.0; })) {
+    return CVec(CVec::Zero(dofs().full_size));
+  }
   if (!s.stiffness || s.assembler.tables_depend_on_speed()) {
     const System system = s.assembler.uncondensed(Omega);
     s.stiffness.emplace(system.M, system.C, system.G, system.K, system.H);
   }
-  CVec force = Omega * Omega * s.force;
-  if (s.steady.size() > 0) force += s.steady;
+  CVec force = s.loads[0].growth_at(Omega) * s.loads[0].amplitude;
+  for (std::size_t i = 1; i < s.loads.size(); ++i) {
+    force += s.loads[i].growth_at(Omega) * s.loads[i].amplitude;
+  }
   const auto q = s.stiffness->solve(Omega, Omega, force);
   if (!q) return {};
   return CVec(dofs().T * *q);
@@ -94,7 +107,7 @@ UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitat
       const System system = assembler.uncondensed(Omega, w);
       stiffness.emplace(system.M, system.C, system.G, system.K, system.H);
     }
-    const auto q = stiffness->solve(w, Omega, force);
+    const auto q = stiffness->solve(w, Omega, load.growth_at(Omega) * force);
     const CVec full = q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan));
     put(full, dofs, s, response);
   }

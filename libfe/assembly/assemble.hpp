@@ -18,7 +18,7 @@ struct System {
   Sparse M, C, G, K;
   DofMap dofs;
   double Omega = 0.0;  ///< [rad/s]
-  Sparse H{};          ///< empty: nothing rotates that damps
+  Sparse H{};          ///< without entries: nothing that rotates damps
 
   int size() const { return static_cast<int>(M.rows()); }
   bool circulates() const { return H.nonZeros() > 0; }

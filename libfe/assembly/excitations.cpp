@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace whirl::inline fe {
@@ -81,12 +82,13 @@ std::vector<Excitation> synchronous_excitations(const Assembler& assembler) {
 
 std::vector<Excitation> other_excitations(const Assembler& assembler) {
   // orders come before frequencies
-  std::map<std::pair<bool, double>, Excitation> all;
+  std::map<std::tuple<bool, double, Growth>, Excitation> all;
   for (const Force& f : assembler.structure().forces) {
     if (f.is_constant() || f.is_synchronous()) continue;
     const bool has_order = f.order > 0.0;
     Excitation own = excitation_of(f, assembler);
-    const auto [at, is_new] = all.try_emplace({!has_order, has_order ? f.order : f.frequency}, own);
+    const auto [at, is_new] =
+        all.try_emplace({!has_order, has_order ? f.order : f.frequency, own.growth}, own);
     if (is_new) continue;
     at->second.amplitude += own.amplitude;
     at->second.names += ", " + own.names;
@@ -117,8 +119,14 @@ std::vector<Excitation> excitations_at(const Assembler& assembler, double Omega)
   return all;
 }
 
-Vec static_load(const Assembler& assembler) {
-  return sum_at(constant_excitations(assembler), assembler, 0.0).real();
+Vec static_load(const Assembler& assembler, double Omega) {
+  return sum_at(constant_excitations(assembler), assembler, Omega).real();
+}
+
+bool is_static_load_steady(const Assembler& assembler) {
+  const std::vector<Excitation> loads = constant_excitations(assembler);
+  return std::all_of(loads.begin(), loads.end(),
+                     [](const Excitation& e) { return e.growth == Growth::none; });
 }
 
 Vec2 steady_acceleration(const Structure& structure) {

@@ -40,8 +40,8 @@ struct Excitation {
 std::vector<Excitation> constant_excitations(const Assembler& assembler);
 /// All that has the frequency of the speed, one after the other: unbalance, bow, forces of order 1.
 std::vector<Excitation> synchronous_excitations(const Assembler& assembler);
-/// Forces of other frequencies, those of one frequency together; orders before frequencies,
-/// ascending.
+/// Forces of other frequencies, those of one frequency and growth together; orders before
+/// frequencies, ascending.
 std::vector<Excitation> other_excitations(const Assembler& assembler);
 
 /// All loads at a speed, those of one frequency together: the constant one, the synchronous one,
@@ -50,8 +50,10 @@ std::vector<Excitation> excitations_at(const Assembler& assembler, double Omega)
 
 /// Sum of amplitudes at a speed, a full vector [N, N.m].
 CVec sum_at(const std::vector<Excitation>& excitations, const Assembler& assembler, double Omega);
-/// Gravity and constant forces [N, N.m].
-Vec static_load(const Assembler& assembler);
+/// Gravity and constant forces at a speed [N, N.m].
+Vec static_load(const Assembler& assembler, double Omega);
+/// Whether that is the same at all speeds.
+bool is_static_load_steady(const Assembler& assembler);
 
 /// Complex amplitude of a force, a full vector [N, N.m]; of a constant one the real part counts.
 ///

@@ -69,11 +69,13 @@ Model ModelBuilder::build() {
 }
 
 Model ModelBuilder::rebuild(const Model& base) {
+  // what is not named here begins anew, as for a table that is read for the first time
+  const auto& [title, source, path, structure, contacts, films, speed, has_speed, machine,
+               reduction, start] = base;
   Model& model = reading_.model;
-  model = base;
-  model.contacts.clear();
-  model.films.clear();
-  model.start = {};
+  model.title = title;
+  model.structure = structure;
+  model.reduction = reduction;
   for_each_in_turn([&](const ModelTable& table) {
     if (!table.is_of_rotor) table.read(reading_);
   });

@@ -42,7 +42,8 @@ struct ModelTable {
   /// Early: other tables name what this one holds. Late: this one adds to what others hold.
   Turn turn = Turn::middle;
   /// Whether its values change the rotor: its mesh, matrices or loads. Tables whose values do not
-  /// are the only ones that are read again for a member of a family, see ModelFamily.
+  /// are the only ones that are read again for a member of a family, see ModelFamily: into a Model
+  /// in which they have not been read.
   bool is_of_rotor = true;
   /// A right one, of a model with a material steel, a shaft and a body b that spins.
   std::string_view example = "";

@@ -59,8 +59,9 @@ Recording stored_recording(const ResultReader& file, const Scene& scene, std::si
   auto motion = read_result<MotionRecord>(file);
   Recording r{.samples = facts.samples_per_revolution,
               .revolutions = std::lround(facts.revolutions),
-              .period = facts.period,
+              .clock = scene.contacts.clock(),
               .first_revolution = std::lround(motion.time(0) / facts.period),
+              .time = motion.time,
               .normal = std::move(motion.normal),
               .friction = std::move(motion.friction)};
   r.eta = coordinates_in(scene, std::move(motion), file.path());

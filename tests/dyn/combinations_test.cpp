@@ -78,10 +78,10 @@ TEST(Identify, NamesWhatIsMadeOfStrongerPeaks) {
   const Scene scene = make_scene(model);
   const Mode mode = complex_modes(scene.system, 2).oscillatory[1];
   const double Omega = model.speed, f = mode.frequency();
-  Recording r{.samples = 32, .revolutions = 400, .period = scene.contacts.period()};
+  Recording r{.samples = 32, .revolutions = 400, .clock = scene.contacts.clock()};
   r.eta.resize(scene.contacts.coordinates(), r.revolutions * r.samples);
   for (Eigen::Index j = 0; j < r.eta.cols(); ++j) {
-    const double t = static_cast<double>(j) * r.period / r.samples;
+    const double t = static_cast<double>(j) * r.spacing();
     const Complex turning = 1.0 * std::polar(1.0, Omega * t) + 0.6 * std::polar(1.0, f * t) +
                             0.2 * std::polar(1.0, (2.0 * f - Omega) * t);
     r.eta.col(j) = 1e-3 * (turning * mode.shape).real();

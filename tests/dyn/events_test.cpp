@@ -21,8 +21,7 @@ constexpr double of_grazes = 1e-8;   ///< zeros whose slope is 1e-4: rounding ov
 /// A step of a duration whose displacements are polynomials of s; the velocities follow from them.
 Step step_of(const ContactSystem& system, double h, const Mat& q, const ContactStates& states) {
   Step step;
-  step.h = h;
-  step.turn = system.phase_rate() * h;
+  step.set(system.clock(), 0.0, h);
   step.q = q;
   step.v = Mat::Zero(q.rows(), q.cols());
   for (Eigen::Index k = 1; k < q.cols(); ++k) {

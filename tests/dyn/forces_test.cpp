@@ -36,7 +36,7 @@ Vec steady(const Assembler& assembler, double Omega, double t) {
   const auto points = assembler.dofs().points();
   const System rest = assembler.uncondensed(Omega);
   Vec full = assembler.dofs().T * Mat(rest.K).partialPivLu().solve(
-                                      Vec(rest.dofs.T.transpose() * static_load(assembler)));
+                                      Vec(rest.dofs.T.transpose() * static_load(assembler, Omega)));
   const auto add = [&](double w, const CVec& load) {
     const CMat Z = (Mat(rest.K) - w * w * Mat(rest.M)).cast<Complex>() +
                    Complex(0.0, w) * Mat(rest.D()).cast<Complex>();

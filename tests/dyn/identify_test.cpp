@@ -22,10 +22,10 @@ Model two_disks() {
 
 /// A steady motion of one mode's shape and frequency, as if it were not damped.
 Recording pure_mode(const Scene& scene, const Mode& mode, double amplitude, long revolutions) {
-  Recording r{.samples = 32, .revolutions = revolutions, .period = scene.contacts.period()};
+  Recording r{.samples = 32, .revolutions = revolutions, .clock = scene.contacts.clock()};
   r.eta.resize(scene.contacts.coordinates(), revolutions * r.samples);
   for (Eigen::Index j = 0; j < r.eta.cols(); ++j) {
-    const double t = static_cast<double>(j) * r.period / r.samples;
+    const double t = static_cast<double>(j) * r.spacing();
     r.eta.col(j) = (std::polar(amplitude, mode.frequency() * t) * mode.shape).real();
   }
   return r;

@@ -27,10 +27,12 @@ TEST(Simulate, SamplesAtEqualPhases) {
   EXPECT_EQ(r.samples, 10);
   EXPECT_EQ(r.revolutions, 4);
   EXPECT_EQ(r.first_revolution, 3);
-  EXPECT_EQ(r.period, scene.contacts.period());
+  EXPECT_EQ(r.speed(), scene.contacts.Omega());
   ASSERT_EQ(r.eta.cols(), 40);
   for (Eigen::Index j = 0; j < r.eta.cols(); ++j) {
-    const double t = (3.0 + static_cast<double>(j) / 10.0) * r.period;
+    const double t = r.time(j);
+    EXPECT_NEAR(t, (3.0 + static_cast<double>(j) / 10.0) * scene.contacts.period(), 1e-12);
+    EXPECT_NEAR(r.angle(j), scene.contacts.phase_rate() * (t - r.time(0)), 1e-9);
     EXPECT_NEAR(r.eta(0, j), A * std::cos(w * t), interpolation * p.clearance);
   }
   EXPECT_EQ(s.end.revolution, 7);

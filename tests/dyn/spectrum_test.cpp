@@ -102,8 +102,8 @@ TEST(FindPeaks, SortsByAmplitudeAndLeavesOutWhatIsSmall) {
 /// A recording of a mass whose place is a sum of circles about a mean.
 Recording recording_of(const Scene& scene, const std::vector<std::pair<Complex, double>>& circles,
                        long revolutions) {
-  Recording r{.samples = 16, .revolutions = revolutions, .period = scene.contacts.period()};
-  const CVec z = tones(circles, revolutions * r.samples, r.period / r.samples);
+  Recording r{.samples = 16, .revolutions = revolutions, .clock = scene.contacts.clock()};
+  const CVec z = tones(circles, revolutions * r.samples, r.spacing());
   r.eta.resize(2, z.size());
   r.eta << z.real().transpose(), z.imag().transpose();
   return r;

@@ -14,10 +14,7 @@ constexpr double rounding = 1e-15;
 /// Two coordinates, displacements of degree 2 and velocities of degree 3: powers by columns.
 Step example() {
   Step step;
-  step.revolution = 7;
-  step.phase = 0.5;
-  step.h = 0.01;
-  step.turn = 1.2;
+  step.set(Clock(-120.0), {0.5, 7}, 0.01);
   step.q = Mat{{1.0, -2.0, 3.0}, {0.5, 0.25, -1.0}};
   step.v = Mat{{4.0, 0.0, -1.0, 2.0}, {-3.0, 1.0, 0.5, 0.125}};
   return step;
