@@ -2,9 +2,9 @@
 /// Walking along branches of periodic motions, round folds, stable or not.
 
 #include <optional>
+#include <string>
 
-#include "libbase/failure.hpp"
-#include "libdyn/branches/branch.hpp"
+#include "libdyn/branches/branch_corrector.hpp"
 
 namespace whirl::inline dyn {
 
@@ -58,40 +58,13 @@ class Continuation {
   const Vec& by_parameter() const { return by_parameter_; }
 
  private:
-  /// A point that may become the next one.
-  struct Trial {
-    BranchPoint point;
-    int corrections = 0;
-    bool is_outside = false;  ///< of the range
-    Failure failure;
-    Mat jacobian;                  ///< by the unknowns
-    std::function<Vec()> slope;    ///< as of BranchEquations::Value
-    Vec by_parameter;              ///< derivative of the residual by the parameter
-    std::optional<BranchEnd> end;  ///< set if the branch ends at this point
-  };
-  /// The plane that the corrector keeps z in: <normal, z - at> = 0.
-  struct Plane {
-    Vec normal, at;
-  };
+  using Trial = BranchTrial;
 
-  void weigh(Eigen::Index unknowns);
-  double value_of(double u) const;
-  double dot(const Vec& a, const Vec& b) const;
-  BranchEquations::Value evaluate(const Vec& z, WithTangent wanted) const;
-  /// Derivative of the residual by the parameter over its range.
-  /// @param slope  as of BranchEquations::Value, at z
-  Vec derivative_by_parameter(const Vec& z, const std::function<Vec()>& slope) const;
-  Vec difference_by_parameter(const Vec& z) const;
-  /// @param by_parameter  derivative near that place; empty: taken where the corrector begins
-  Trial correct(const Plane& plane, Vec by_parameter) const;
-  /// Adds the tangent at a point of the branch, and the derivative by the parameter; false: there
-  /// is no tangent.
-  bool add_tangent(Trial& trial, const Vec& along) const;
   /// The point that the tangent predicts at an arc length from the last one, corrected, with a
   /// tangent of its own.
   Trial reach(double step) const;
   /// The plane at the end of the range that the last tangent leads to.
-  Plane range_end_ahead() const;
+  BranchPlane range_end_ahead() const;
   double next_step(const Trial& trial, double step) const;
   /// The trial, or a point on the way to it at which the branch is done.
   Trial stop_on_the_way(Trial trial) const;
@@ -122,11 +95,10 @@ class Continuation {
   Trial beyond_grazing(const Bifurcation& grazes, double u) const;
   double limited(double step, const Vec& tangent) const;
 
-  BranchEquations equations_;
+  BranchCorrector corrector_;
   ContinuationOptions options_;
   Branch branch_;
   Vec by_parameter_;
-  Vec weights_;
 };
 
 }  // namespace whirl::inline dyn

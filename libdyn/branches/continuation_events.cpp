@@ -80,22 +80,22 @@ bool touch_alike(const std::vector<ContactMeasure>& a, const std::vector<Contact
 
 }  // namespace
 
-Continuation::Trial Continuation::closing(const BranchPoint& a, const BranchPoint& b) const {
+BranchTrial Continuation::closing(const BranchPoint& a, const BranchPoint& b) const {
   const BranchPoint& first = branch_.points.front();
   const Eigen::Index size = first.z.size() - 1;
   const double from = (a.z(size) - first.z(size)) * first.tangent(size),
                to = (b.z(size) - first.z(size)) * first.tangent(size);
   Trial trial{.failure = "elsewhere"};
   if (branch_.points.size() < 3 || !(from < 0.0 && to >= 0.0)) return trial;
-  Plane at{Vec::Unit(size + 1, size), a.z + from / (from - to) * (b.z - a.z)};
+  BranchPlane at{Vec::Unit(size + 1, size), a.z + from / (from - to) * (b.z - a.z)};
   at.at(size) = first.z(size);
-  trial = correct(at, by_parameter_);
+  trial = corrector_.correct(at, by_parameter_);
   if (!trial.failure && !is_same(trial.point, first)) trial.failure = "another orbit";
-  if (!trial.failure && !add_tangent(trial, a.tangent)) trial.failure = "no tangent";
+  if (!trial.failure && !corrector_.add_tangent(trial, a.tangent)) trial.failure = "no tangent";
   return trial;
 }
 
-Continuation::Trial Continuation::stop_on_the_way(Trial trial) const {
+BranchTrial Continuation::stop_on_the_way(Trial trial) const {
   const BranchPoint& last = branch_.points.back();
   const double step = trial.point.step;
   if (Trial first = closing(last, trial.point); !first.failure) {
@@ -121,7 +121,7 @@ void Continuation::forget_vertex(const BranchPoint& vertex) {
   });
 }
 
-Continuation::Trial Continuation::beyond_grazing(const Bifurcation& grazes, double u) const {
+BranchTrial Continuation::beyond_grazing(const Bifurcation& grazes, double u) const {
   constexpr double near = 0.1;  // of the last orbit, in scales
   const BranchPoint& last = branch_.points.back();
   const Eigen::Index size = last.z.size() - 1;
@@ -141,10 +141,11 @@ Continuation::Trial Continuation::beyond_grazing(const Bifurcation& grazes, doub
         Vec z = (1.0 + outward * moved) * last.z;
         z(size) = u + way * ahead;
         if (z(size) < 0.0 || z(size) > 1.0) continue;
-        Trial trial = correct({Vec::Unit(size + 1, size), z}, Vec());
+        Trial trial = corrector_.correct({Vec::Unit(size + 1, size), z}, Vec());
         if (trial.failure || duty_of(trial.point) != wanted) continue;
         const Vec step = trial.point.z - last.z;
-        if (dot(step, step) > near * near || !add_tangent(trial, step)) continue;
+        if (corrector_.dot(step, step) > near * near || !corrector_.add_tangent(trial, step))
+          continue;
         trial.point.step = limited(ahead, trial.point.tangent);
         return trial;
       }
@@ -161,7 +162,7 @@ void Continuation::cross_or_end(const std::string& why) {
   const auto touches_differ = [&](double length, std::vector<ContactMeasure>& seen) {
     Vec z = last.z + length * last.tangent;
     z(z.size() - 1) = std::clamp(z(z.size() - 1), 0.0, 1.0);
-    BranchEquations::Value at = evaluate(z, WithTangent::no);
+    BranchEquations::Value at = corrector_.evaluate(z, WithTangent::no);
     if (at.residual.size() == 0) return false;
     seen = std::move(at.contacts);
     return !touch_alike(seen, last.contacts);
@@ -193,7 +194,7 @@ void Continuation::cross_or_end(const std::string& why) {
                     .multiplier = critical_multiplier(grazing, {})};
     const double u =
         std::clamp(last.z(last.z.size() - 1) + high * last.tangent(last.z.size() - 1), 0.0, 1.0);
-    end.at.value = value_of(u);
+    end.at.value = corrector_.value_of(u);
     if (Trial beyond = beyond_grazing(end, u); !beyond.failure) {
       end.change = change_of(last.contacts[c], beyond.point.contacts[c]);
       branch_.bifurcations.push_back(std::move(end));
@@ -209,14 +210,13 @@ void Continuation::cross_or_end(const std::string& why) {
   }
 }
 
-Continuation::Trial Continuation::between(const BranchPoint& a, const BranchPoint& b,
-                                          double length) const {
+BranchTrial Continuation::between(const BranchPoint& a, const BranchPoint& b, double length) const {
   const Vec chord = b.z - a.z;
-  Plane plane{chord / std::sqrt(dot(chord, chord)), a.z};
+  BranchPlane plane{chord / std::sqrt(corrector_.dot(chord, chord)), a.z};
   plane.at += length * plane.normal;
-  Trial trial = correct(plane, by_parameter_);
+  Trial trial = corrector_.correct(plane, by_parameter_);
   // where two branches meet there is no single tangent
-  if (!trial.failure && !add_tangent(trial, plane.normal)) {
+  if (!trial.failure && !corrector_.add_tangent(trial, plane.normal)) {
     trial.point.tangent = plane.normal;
   }
   return trial;
@@ -228,7 +228,7 @@ std::optional<double> Continuation::halving(const BranchPoint& a, const BranchPo
   const double from = before.squaredNorm(), to = before.dot(after);
   if (to > halved * from) return std::nullopt;
   const Vec chord = b.z - a.z;
-  return std::sqrt(dot(chord, chord)) * std::clamp(from / (from - to), 0.0, 1.0);
+  return std::sqrt(corrector_.dot(chord, chord)) * std::clamp(from / (from - to), 0.0, 1.0);
 }
 
 bool Continuation::find_bifurcations(const BranchPoint& a, const BranchPoint& b) {
@@ -246,7 +246,7 @@ bool Continuation::find_bifurcations(const BranchPoint& a, const BranchPoint& b)
   const Vec chord = b.z - a.z;
   std::stable_sort(branch_.bifurcations.begin() + static_cast<std::ptrdiff_t>(known),
                    branch_.bifurcations.end(), [&](const Bifurcation& x, const Bifurcation& y) {
-                     return dot(chord, x.at.z - y.at.z) < 0.0;
+                     return corrector_.dot(chord, x.at.z - y.at.z) < 0.0;
                    });
   return all;
 }
@@ -266,7 +266,8 @@ bool Continuation::locate(BifurcationKind kind, const BranchPoint& a, const Bran
     }
     return value;
   };
-  bracketed_root(f, 0.0, f_a, std::sqrt(dot(chord, chord)), f_b, sharper * options_.located);
+  bracketed_root(f, 0.0, f_a, std::sqrt(corrector_.dot(chord, chord)), f_b,
+                 sharper * options_.located);
   if (!(least < zero)) return false;
   const Complex mu = critical_multiplier(kind, best.multipliers);
   if (kind == neimark_sacker && std::abs(mu.imag()) < 1e-8)
@@ -278,7 +279,7 @@ bool Continuation::locate(BifurcationKind kind, const BranchPoint& a, const Bran
 
 bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
   const Vec chord = b.z - a.z;
-  const double whole = std::sqrt(dot(chord, chord));
+  const double whole = std::sqrt(corrector_.dot(chord, chord));
   double from = 0.0;
   BranchPoint before = a;
   for (int k = 0; k < most_grazings && !touch_alike(before.contacts, b.contacts); ++k) {

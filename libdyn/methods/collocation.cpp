@@ -22,6 +22,18 @@ constexpr double wanted_path = 1e-6;    ///< the same, aimed at
 constexpr double whole_turn = 2.0 * std::numbers::pi;
 
 /// One integration: the state, the step sizes, what has happened.
+/// The last piece of a step, which the observer has not seen.
+struct HeldPiece {
+  Step piece;
+  Vec end;
+  bool is_there = false;
+};
+
+bool touches(const MotionState& state) {
+  return std::any_of(state.contacts.begin(), state.contacts.end(),
+                     [](const ContactState& c) { return c.in_touch(); });
+}
+
 class CollocationRun {
  public:
   CollocationRun(const ContactSystem& system, MotionState& state, const IntegrationOptions& options,
@@ -49,10 +61,6 @@ class CollocationRun {
   enum class Result { goes_on, ended };
 
   bool is_fixed() const { return options_.fixed_step > 0.0; }
-  bool touches() const {
-    return std::any_of(state_.contacts.begin(), state_.contacts.end(),
-                       [](const ContactState& c) { return c.in_touch(); });
-  }
   Result fail(Outcome outcome, std::string_view what) {
     result_.outcome = outcome;
     result_.failure = failure_text(system_, state_, what);
@@ -81,9 +89,7 @@ class CollocationRun {
   bool may_be_certain_ = true;
   int instant_events_ = 0;
   Vec end_;
-  Step held_;  ///< the last piece that the observer has not seen
-  Vec held_end_;
-  bool has_held_ = false;
+  HeldPiece held_;
   Integration result_;
 };
 
@@ -140,9 +146,9 @@ void CollocationRun::choose_next(Rung tried, bool touched) {
     return Rung{std::max(0, tried.number - std::clamp(rungs, -2, 2))};
   };
   if (touched) {
-    touch_ = next(step_.error(), ContactStep::terms);
+    touch_ = next(step_.error(), StepTables::terms);
   } else {
-    flight_ = next(step_.path_error() / wanted_path, ContactStep::samples - 2);
+    flight_ = next(step_.path_error() / wanted_path, StepTables::samples - 2);
   }
 }
 
@@ -154,7 +160,7 @@ CollocationRun::Result CollocationRun::advance() {
     state_.phase = 0.0;
     return Result::goes_on;
   }
-  const bool touched = touches();
+  const bool touched = touches(state_);
   Rung rung = touched ? touch_ : flight_;
   while (!is_fixed() && step_.size({rung.number + 1}) >= left * (1.0 - 1e-12)) ++rung.number;
   const auto shorten = [&](int by) {
@@ -167,7 +173,7 @@ CollocationRun::Result CollocationRun::advance() {
   };
   if (!step_.solve(rung, state_)) return shorten(2);
   if (!is_fixed() && step_.error() > 1.0) {
-    const double factor = 0.9 * std::pow(step_.error(), -1.0 / ContactStep::terms);
+    const double factor = 0.9 * std::pow(step_.error(), -1.0 / StepTables::terms);
     return shorten(static_cast<int>(std::clamp(std::ceil(-2.0 * std::log2(factor)), 1.0, 6.0)));
   }
   const double h = step_.size(rung);
@@ -222,20 +228,18 @@ void CollocationRun::move_on(double turn, bool ends_revolution, const std::optio
 }
 
 bool CollocationRun::show(double limit) {
-  has_held_ = false;
+  held_.is_there = false;
   const bool goes_on = step_.dense(state_, limit, [&](const Step& piece, const Vec& end) {
-    if (has_held_) {
+    if (held_.is_there) {
       ++result_.cost.steps;
-      if (!observer_(held_)) return false;
+      if (!observer_(held_.piece)) return false;
     }
-    held_ = piece;
-    held_end_ = end;
-    has_held_ = true;
+    held_ = {piece, end, true};
     return true;
   });
   if (goes_on) return false;
-  state_.y = held_end_;
-  state_.phase = held_.angle(1.0);
+  state_.y = held_.end;
+  state_.phase = held_.piece.angle(1.0);
   result_.outcome = Outcome::stopped_by_observer;
   return true;
 }
@@ -246,7 +250,7 @@ CollocationRun::Result CollocationRun::show_last() {
     return Result::goes_on;
   }
   ++result_.cost.steps;
-  if (observer_(held_)) return Result::goes_on;
+  if (observer_(held_.piece)) return Result::goes_on;
   result_.outcome = Outcome::stopped_by_observer;
   return Result::ended;
 }

@@ -10,7 +10,7 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr int points = ContactStep::samples;
+constexpr int points = StepTables::samples;
 constexpr int finest = 30;  ///< halvings of a step
 
 /// Maps to coefficients, made once.
@@ -26,31 +26,19 @@ const Interpolation& interpolation() {
 
 }  // namespace
 
-const Mat& ContactStep::dense_table(int level) {
-  Family& family = *families_[static_cast<std::size_t>(rung_.family())];
-  Mat& table = family.dense[static_cast<std::size_t>(level)];
-  if (table.size() > 0) return table;
-  const Vec s = chebyshev_points(points);
-  const auto N = system_.size();
-  table.resize((points - 1) * N, N + 3 + a_.size());
-  for (int i = 1; i < points; ++i) {
-    const LinearFlow::Rows rows_at = family.flow.rows(level, s(i), Mat::Identity(N, N));
-    table.middleRows((i - 1) * N, N) << rows_at.y, rows_at.load, rows_at.force;
-  }
-  return table;
-}
-
 bool ContactStep::dense(const MotionState& from, double limit,
                         const std::function<bool(const Step&, const Vec&)>& give) {
-  return dense_piece(from, {rung_.level(), 0.0, 1.0}, limit, from.y, a_, give);
+  return dense_piece(from, {forces_.motion().rung.level(), 0.0, 1.0}, limit, from.y,
+                     forces_.motion().a, give);
 }
 
 bool ContactStep::dense_piece(const MotionState& from, const Part& part, double limit, const Vec& y,
                               const Vec& a,
                               const std::function<bool(const Step&, const Vec&)>& give) {
-  LinearFlow& flow = families_[static_cast<std::size_t>(rung_.family())]->flow;
+  const Rung rung = forces_.motion().rung;
+  LinearFlow& flow = tables_.flow(rung);
   const Interpolation& table = interpolation();
-  const double h = size(rung_), rate = system_.phase_rate();
+  const double h = size(rung), rate = system_.phase_rate();
   const Eigen::Vector3d load = load_at(from.phase + part.start * h * rate);
   const StateLayout layout = system_.layout();
   bool is_short = flow.size(part.level) <= longest_piece_;
@@ -60,15 +48,15 @@ bool ContactStep::dense_piece(const MotionState& from, const Part& part, double 
     Mat values(layout.size(), points);
     values.col(0) = y;
     Eigen::Map<Vec>(values.col(1).data(), layout.size() * (points - 1)).noalias() =
-        dense_table(part.level) * all;
+        tables_.dense(rung, part.level) * all;
     const Mat legendre = values * table.to_legendre.transpose();
     // a motion that has grown has no finer digits than its size allows
     const Vec weight =
-        system_.state_scale().cwiseMax(values.cwiseAbs().rowwise().maxCoeff() / grown);
+        system_.state_scale().cwiseMax(values.cwiseAbs().rowwise().maxCoeff() / StepForces::grown);
     const double error =
         (legendre.rightCols(2).array().colwise() / weight.array()).abs().maxCoeff();
     is_short = error <= tolerance_ ||
-               part.level >= std::min(rung_.level() + finest, LinearFlow::levels - 1);
+               part.level >= std::min(rung.level() + finest, LinearFlow::levels - 1);
     // the next step begins with pieces as long as these, or longer ones if they are too good
     longest_piece_ = is_short ? flow.size(part.level) * (error < 1e-2 * tolerance_ ? 2.1 : 1.1)
                               : flow.size(part.level) * 0.6;
@@ -88,14 +76,14 @@ bool ContactStep::dense_piece(const MotionState& from, const Part& part, double 
   }
   const double middle = part.start + 0.5 * part.width;
   Vec half = a, z = y;
-  flow.restrict_to_half(false, touching_, half);
-  flow.advance(part.level + 1, 1.0, load, half, touching_, z);
+  flow.restrict_to_half(false, forces_.motion().touching, half);
+  flow.advance(part.level + 1, 1.0, load, half, forces_.motion().touching, z);
   if (!dense_piece(from, {part.level + 1, part.start, 0.5 * part.width}, limit, y, half, give)) {
     return false;
   }
   if (middle >= limit) return true;
   half = a;
-  flow.restrict_to_half(true, touching_, half);
+  flow.restrict_to_half(true, forces_.motion().touching, half);
   return dense_piece(from, {part.level + 1, middle, 0.5 * part.width}, limit, z, half, give);
 }
 

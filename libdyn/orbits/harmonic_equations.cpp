@@ -280,18 +280,6 @@ Mat HarmonicEquations::jacobian(const Evaluation& at) const {
   return J;
 }
 
-Vec HarmonicEquations::spring_slopes(const Mat& U_slope, const Mat& B_slope,
-                                     double rate_slope) const {
-  Vec slopes = Vec::Zero(ports());
-  for (Eigen::Index j = 0; j < ports(); ++j) {
-    if (springs_(j) == 0.0) continue;
-    const double mobility = U_.row(j).dot(B_.col(j)),
-                 changed = U_slope.row(j).dot(B_.col(j)) + U_.row(j).dot(B_slope.col(j));
-    slopes(j) = springs_(j) * (2.0 * rate_slope / problem_.rate - changed / mobility);
-  }
-  return slopes;
-}
-
 std::optional<Mat> HarmonicEquations::slope(const Mat& u, const Mat& g,
                                             const HarmonicProblem& by) const {
   Mat g_slope = Mat::Zero(u.rows(), u.cols());
@@ -307,7 +295,13 @@ std::optional<Mat> HarmonicEquations::slope(const Mat& u, const Mat& g,
     first += p;
   }
   const Places places = places_of(by);
-  const Vec springs = spring_slopes(places.U, places.B, by.rate);
+  Vec springs = Vec::Zero(ports());  // their derivatives
+  for (Eigen::Index j = 0; j < ports(); ++j) {
+    if (springs_(j) == 0.0) continue;
+    const double mobility = U_.row(j).dot(B_.col(j)),
+                 changed = places.U.row(j).dot(B_.col(j)) + U_.row(j).dot(places.B.col(j));
+    springs(j) = springs_(j) * (2.0 * by.rate / problem_.rate - changed / mobility);
+  }
   const Mat x = motion(g), rates = differentiated(x);  // by theta
   const double w = frequency(), w_slope = by.rate / period_;
   Mat forces = loads_of(by, period_, harmonics_) + places.B * (g - springs_.asDiagonal() * U_ * x);

@@ -35,6 +35,15 @@ struct HarmonicProblem {
   int highest_load(int period) const;
 };
 
+/// Forces and slopes at displacements of the ports.
+struct HarmonicEvaluation {
+  bool has_force = false;  ///< else nothing of this is known
+  Mat g;                   ///< Fourier coefficients of the forces, springs included
+  Mat residual;            ///< [m]
+  Mat by_u, by_rate;       ///< of g by the coefficients of u and u'; columns of matrices follow one
+                           ///< another; empty: not wanted
+};
+
 /// The equations for so many harmonics, everything linear eliminated.
 ///
 ///   r = u - u_0 - H g(u),   H_k = U Z_k^-1 B,   Z_k = K + i w_k D - w_k^2,   w_k = k rate / period
@@ -62,14 +71,8 @@ class HarmonicEquations {
   /// K with the springs.
   const Mat& stiffness() const { return K_; }
 
+  using Evaluation = HarmonicEvaluation;
   /// Forces and slopes at displacements u (ports x (2 H + 1)).
-  struct Evaluation {
-    bool has_force = false;  ///< else nothing of this is known
-    Mat g;                   ///< Fourier coefficients of the forces, springs included
-    Mat residual;            ///< [m]
-    Mat by_u, by_rate;       ///< of g by the coefficients of u and u'; columns of matrices follow
-                             ///< one another; empty: not wanted
-  };
   Evaluation evaluate(const Mat& u, bool slopes) const;
   /// dr / du, of size ports (2 H + 1).
   Mat jacobian(const Evaluation& at) const;
@@ -95,8 +98,6 @@ class HarmonicEquations {
  private:
   /// Dynamic stiffnesses of all harmonics; the first that is singular, or -1.
   int factorize();
-  /// Derivatives of the springs.
-  Vec spring_slopes(const Mat& U_slope, const Mat& B_slope, double rate_slope) const;
 
   const HarmonicProblem& problem_;
   int period_, harmonics_;

@@ -1,27 +1,19 @@
 #pragma once
 /// Who computes the pieces of a study: threads of this process, and other processes with theirs.
 
-#include <algorithm>
 #include <chrono>
-#include <cstdint>
-#include <deque>
 #include <functional>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "libbase/processes/ranks.hpp"
 #include "libbase/processes/work_queue.hpp"
-#include "libbase/structs/travel.hpp"
+#include "libdyn/studies/away_pieces.hpp"
 #include "libdyn/studies/point_work.hpp"
 
 namespace whirl::inline dyn {
-
-/// Time between two letters that say nothing but that a process is alive.
-constexpr std::chrono::seconds alive_every{5};
 
 /// The threads of this process and of the processes that it leads, if any. Each thread is given the
 /// piece that it computes and one more piece that waits, so that no thread is idle while letters
@@ -35,43 +27,28 @@ class PieceHands {
   /// @param ranks  that this process leads; null: none
   /// @param stops  whether to stop with what is begun; asked in every thread
   PieceHands(const Work& work, const Ranks* ranks, const std::function<bool()>& stops)
-      : work_(work), ranks_(ranks), stops_(stops), threads_(work.computing_threads()) {
-    if (ranks_) others_.resize(static_cast<std::size_t>(ranks_->count) - 1);
-    read_letters();
-  }
+      : work_(work), stops_(stops), threads_(work.computing_threads()), away_(ranks) {}
   /// Does not wait for what other processes have not done.
   ~PieceHands() { stop(); }
   PieceHands(const PieceHands&) = delete;
   PieceHands& operator=(const PieceHands&) = delete;
 
   /// Threads of all processes; a process that has not begun counts with as many as this one has.
-  int threads() const {
-    int all = threads_;
-    for (const Other& other : others_) all += other.threads > 0 ? other.threads : work_.threads;
-    return all;
-  }
+  int threads() const { return threads_ + away_.threads(work_.threads); }
 
   /// Whether every thread has a piece, and another piece waits for it.
-  bool is_full() const {
-    for (const Other& other : others_) {
-      if (other.has_room()) return false;
-    }
-    return own_.is_full();
-  }
-  bool has_open() const { return own_.has_open() || has_away() || !arrived_.empty(); }
-  bool has_away() const { return !away_.empty(); }
+  bool is_full() const { return !away_.has_room() && own_.is_full(); }
+  bool has_open() const { return own_.has_open() || has_away() || away_.has_arrived(); }
+  bool has_away() const { return away_.has_away(); }
 
   /// Gives a piece to the process with the fewest open pieces for each of its threads; to this one,
-  /// if all are alike.
+  /// if all are alike. This one, if it has no thread beside the calling one, takes pieces only
+  /// where all others are full.
   void add(const Piece& piece, Given given) {
-    if (const int rank = freest(); rank > 0) {
-      Other& other = others_[static_cast<std::size_t>(rank) - 1];
-      away_[++last_] = piece;
-      ++other.open;
-      ranks_->send({rank, LetterKind::piece, packed(last_, piece, given)});
-      patience_.begin_anew();  // a long letter leaves while others are looked for
-      return;
-    }
+    const double own_load = threads_ > 0
+                                ? static_cast<double>(own_open_) / static_cast<double>(threads_)
+                                : std::numeric_limits<double>::infinity();
+    if (const int rank = away_.freest(own_load); rank > 0) return away_.give(rank, piece, given);
     ++own_open_;
     own_.add([this, piece, shared = std::make_shared<Given>(std::move(given))] {
       return finish_piece(work_, piece, *shared, stops_);
@@ -82,128 +59,30 @@ class PieceHands {
   /// @throws ModelError, ...  what a piece has thrown, in whatever process
   /// @throws LostRank
   std::optional<FinishedPiece<Row>> take() {
-    read_letters();
-    if (!arrived_.empty()) {
-      FinishedPiece<Row> first = std::move(arrived_.front());
-      arrived_.pop_front();
-      return first;
-    }
-    return take_own({});
+    auto arrived = away_.take();
+    return arrived ? std::move(arrived) : take_own({});
   }
   /// A piece that is done; waits a little for one to come.
   std::optional<FinishedPiece<Row>> wait() {
     auto finished = take();
-    if (finished) return finished;
-    return take_own(ranks_ ? patience_.next() : std::chrono::milliseconds(100));
+    return finished ? std::move(finished) : take_own(away_.pause());
   }
 
   /// Tells other processes to stop with their pieces.
-  void stop() {
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-      if (others_[i].open == 0 || std::exchange(others_[i].is_told, true)) continue;
-      ranks_->send({static_cast<int>(i) + 1, LetterKind::stop});
-    }
-  }
+  void stop() { away_.stop(); }
 
  private:
-  using clock = std::chrono::steady_clock;
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-
-  /// Another process.
-  struct Other {
-    int threads = 0;       ///< 0: the process has not begun
-    std::size_t open = 0;  ///< pieces that the process was given and has not answered
-    bool is_told = false;  ///< to stop
-    Silence silence{};
-
-    bool has_room() const { return open < 2 * static_cast<std::size_t>(threads); }
-  };
-
   std::optional<FinishedPiece<Row>> take_own(std::chrono::microseconds patience) {
     auto finished = own_.take(patience);
     if (finished) --own_open_;
     return finished;
   }
 
-  /// The rank with the fewest open pieces for each of its threads; this process, if it has no
-  /// thread beside the calling one, only if all others are full.
-  int freest() const {
-    const auto load = [](std::size_t open, int threads) {
-      return static_cast<double>(open) / static_cast<double>(threads);
-    };
-    int rank = 0;
-    double least = threads_ > 0 ? load(own_open_, threads_) : infinite;
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-      const Other& other = others_[i];
-      if (!other.has_room() || load(other.open, other.threads) >= least) continue;
-      rank = static_cast<int>(i) + 1;
-      least = load(other.open, other.threads);
-    }
-    return rank;
-  }
-
-  void read_letters() {
-    if (!ranks_) return;
-    while (const std::optional<Letter> letter = ranks_->receive()) {
-      patience_.begin_anew();
-      read(*letter);
-      if (!arrived_.empty()) break;
-    }
-    const bool says_so = clock::now() >= next_alive_;
-    if (says_so) next_alive_ = clock::now() + alive_every;
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-      Other& other = others_[i];
-      const int rank = static_cast<int>(i) + 1;
-      if (other.threads == 0) continue;
-      if (const auto lasts = other.silence.look(); lasts > ranks_->patience) {
-        throw LostRank(rank, lasts);
-      }
-      if (says_so) ranks_->send({rank, LetterKind::alive});
-    }
-  }
-
-  void read(const Letter& letter) {
-    Other& other = others_[static_cast<std::size_t>(letter.rank) - 1];
-    other.silence.hear();
-    switch (letter.kind) {
-      case LetterKind::ready:
-        other.silence = {};
-        unpack(letter.bytes, other.threads);
-        return;
-      case LetterKind::rows:
-        return read_rows(letter.bytes, other);
-      case LetterKind::error:
-        return throw_packed(letter.bytes, letter.rank);
-      case LetterKind::stop:  // somebody has stopped that process alone: all of them stop
-        *ranks_->told_to_stop = true;
-        return;
-      default:
-        return;
-    }
-  }
-
-  void read_rows(const std::string& bytes, Other& other) {
-    std::uint64_t number = 0;
-    FinishedPiece<Row> finished;
-    unpack(bytes, number, finished.is_whole, finished.seconds, finished.rows);
-    const auto away = away_.find(number);
-    finished.piece = std::move(away->second);
-    away_.erase(away);
-    --other.open;
-    arrived_.push_back(std::move(finished));
-  }
-
   const Work& work_;
-  const Ranks* ranks_;
   const std::function<bool()>& stops_;
   int threads_;  ///< of this process
   std::size_t own_open_ = 0;
-  std::vector<Other> others_;            ///< from rank 1
-  std::map<std::uint64_t, Piece> away_;  ///< in other processes, by number
-  std::uint64_t last_ = 0;               ///< number of the last piece given away
-  std::deque<FinishedPiece<Row>> arrived_;
-  Patience patience_;
-  clock::time_point next_alive_ = clock::now() + alive_every;
+  AwayPieces<Row, Given> away_;
   WorkQueue<FinishedPiece<Row>> own_{threads_};  // the last member: its threads use the others
 };
 
@@ -241,7 +120,7 @@ template <class Row, class Given>
   bool has_stopped = false;
   const auto send = [&](Letter letter) {
     ranks.send(std::move(letter));
-    patience.begin_anew();  // as in PieceHands::add
+    patience.begin_anew();  // as in AwayPieces::give
   };
   for (auto next_alive = clock::now() + alive_every;;) {
     const std::optional<Letter> letter = ranks.receive();

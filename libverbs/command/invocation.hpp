@@ -52,9 +52,8 @@ struct OutputOptions {
   auto fields() { return std::tie(out, json, threads, force, quiet); }
 };
 
-/// One call of the program.
-class Invocation {
- public:
+/// What a call is given, by a command line or a program.
+struct CallInput {
   std::string verb;
   std::string file;                      ///< model or result
   std::vector<std::string> words;        ///< after the file, of verbs that take more
@@ -76,7 +75,11 @@ class Invocation {
   /// A result with the motion that this call would integrate, for verbs that can take a motion from
   /// a result.
   std::string motion{};
+};
 
+/// One call of the program.
+class Invocation : public CallInput {
+ public:
   /// Values that are given of an option, by its name: for what several verbs do alike.
   std::vector<std::string> values(std::string_view option) const;
   /// The value of an option that is given once; empty: not given.

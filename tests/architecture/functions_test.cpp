@@ -149,19 +149,13 @@ TEST(Architecture, NoClassIsTooWide) {
   };
   const std::map<std::string, Wide> known = {
       {"ContactLanes", {64, "the coefficients of one contact, which its loop holds together"}},
-      {"ContactStep", {57, "to be parted: nodes, forces, Newton's method, paths, dense output"}},
       {"ContactSystem", {46, "the equations of motion, asked for in the words of every method"}},
       {"TableReader", {37, "a function for every kind of value that a table may hold"}},
-      {"Invocation", {36, "to be parted: the call, its output, its files, its progress"}},
-      {"Continuation", {36, "to be parted: the walk, its steps, what it meets"}},
-      {"PieceHands", {31, "to be parted: what is handed out, what comes back"}},
       {"ResultWriter", {30, "a function for every kind of value that a file may hold"}},
       {"ResultReader", {29, "a function for every kind of value that a file may hold"}},
       {"Assembler", {30, "what analyses ask of a structure: matrices, loads, places"}},
       {"ResponseDataset", {28, "the fields of a record, as its format numbers them"}},
-      {"CollocationRun", {28, "to be parted: a step, its events, its end"}},
       {"Writer", {27, "a function for every table of a file"}},
-      {"HarmonicEquations", {27, "to be parted: equations, their slopes, receptances"}},
       {"Builder", {27, "the calls that a parser of JSON makes"}},
       {"LinearFlow", {26, "tables and what is done with them"}},
   };
