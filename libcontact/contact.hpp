@@ -14,8 +14,8 @@ struct Contact {
   std::string name;
   Station at;
   Station against;  ///< the ground or a body
-  double clearance =
-      0.0;  ///< of a ring its radius, of an ellipse half the short axis, of a face axial [m]
+  /// Of a ring its radius, of an ellipse half the short axis, of a stop and a face along them [m].
+  double clearance = 0.0;
   Vec2 offset = Vec2::Zero();  ///< middle of the clearance [m]
   Friction friction;
   AnyContactLaw<> law;

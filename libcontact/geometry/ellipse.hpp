@@ -55,23 +55,23 @@ struct Ellipse {
     return {std::cos(angle), std::sin(angle), 1.0 / (aspect * clearance), 1.0 / clearance};
   }
 
-  /// u / a and v / b.
+  /// u and v over the half axes.
   template <class T>
   WHIRL_INLINE static auto scaled(const T& x, const T& y, const WallNumbers<T>& of) {
-    const auto& [cosine, sine, a, b] = of;
-    return std::pair{(cosine * x + sine * y) * a, (cosine * y - sine * x) * b};
+    const auto& [cosine, sine, over_a, over_b] = of;
+    return std::pair{(cosine * x + sine * y) * over_a, (cosine * y - sine * x) * over_b};
   }
   template <class T>
   WHIRL_INLINE static auto square(const T& x, const T& y, const WallNumbers<T>& of) {
-    const auto scales = scaled(x, y, of);
-    return scales.first * scales.first + scales.second * scales.second;
+    const auto at = scaled(x, y, of);
+    return at.first * at.first + at.second * at.second;
   }
   template <class T>
   WHIRL_INLINE static WallGap<T> wall(const T& x, const T& y, const WallNumbers<T>& of) {
     using std::sqrt;
     const auto& [cosine, sine, a, b] = of;
-    const auto scales = scaled(x, y, of);
-    const auto &u = scales.first, &v = scales.second;
+    const auto at = scaled(x, y, of);
+    const auto &u = at.first, &v = at.second;
     const auto square = u * u + v * v, rho = sqrt(square);
     const auto gu = u * a, gv = v * b;  // rho grad rho
     const auto g = sqrt(gu * gu + gv * gv);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/newton.hpp"

@@ -26,6 +26,7 @@ struct BranchPlane {
   Vec normal, at;
 };
 
+/// Solves the equations of a branch in planes of z = (x, u), and finds its tangents.
 class BranchCorrector {
  public:
   /// @param low, high  range of the parameter

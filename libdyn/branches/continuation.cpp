@@ -44,7 +44,7 @@ Continuation::Continuation(BranchEquations equations, const Vec& x,
   Vec z(size + 1);
   z << x,
       options_.first == options_.high ? 1.0 : (options_.first - options_.low) / options_.range();
-  Trial trial = corrector_.correct({Vec::Unit(size + 1, size), z}, Vec::Zero(size));
+  BranchTrial trial = corrector_.correct({Vec::Unit(size + 1, size), z}, Vec::Zero(size));
   if (trial.failure) {
     throw NumericalError(
         fmt::format("at the first value, {:g}: {}", options_.first, trial.failure.text()));
@@ -100,7 +100,7 @@ BranchTrial Continuation::reach(double step) const {
   bool is_end = plane.at(size) >= 1.0 || plane.at(size) <= 0.0;
   if (is_end) plane = range_end_ahead();
   // where branches meet, what leads to either of them is in the derivative near by
-  Trial trial = corrector_.correct(plane, is_first ? Vec() : by_parameter_);
+  BranchTrial trial = corrector_.correct(plane, is_first ? Vec() : by_parameter_);
   if (trial.is_outside && !is_end && std::abs(last.tangent(size)) > along_range) {
     is_end = true;
     trial = corrector_.correct(range_end_ahead(), by_parameter_);
@@ -120,7 +120,7 @@ BranchTrial Continuation::reach(double step) const {
   return trial;
 }
 
-double Continuation::next_step(const Trial& trial, double step) const {
+double Continuation::next_step(const BranchTrial& trial, double step) const {
   const double cosine = corrector_.dot(trial.point.tangent, branch_.points.back().tangent);
   const double angle = std::acos(std::min(1.0, std::abs(cosine)));
   double growth = trial.corrections <= 2 ? 1.6 : trial.corrections <= 4 ? 1.2 : 0.6;
@@ -128,7 +128,7 @@ double Continuation::next_step(const Trial& trial, double step) const {
   return limited(std::max(0.3, growth) * step, trial.point.tangent);
 }
 
-void Continuation::accept(Trial trial) {
+void Continuation::accept(BranchTrial trial) {
   if (trial.end && trial.end->kind == EndKind::period_halved) forget_vertex(trial.point);
   branch_.end = std::move(trial.end);
   by_parameter_ = std::move(trial.by_parameter);
@@ -158,7 +158,7 @@ bool Continuation::add_point() {
   std::string why;
   for (double step = std::max(last.step, options_.smallest_step); step >= options_.smallest_step;
        step *= shrink) {
-    Trial trial = reach(step);
+    BranchTrial trial = reach(step);
     if (!trial.failure) {
       trial = stop_on_the_way(std::move(trial));
       if (is_first || find_bifurcations(last, trial.point) || step <= finest) {

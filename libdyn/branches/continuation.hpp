@@ -58,23 +58,21 @@ class Continuation {
   const Vec& by_parameter() const { return by_parameter_; }
 
  private:
-  using Trial = BranchTrial;
-
   /// The point that the tangent predicts at an arc length from the last one, corrected, with a
   /// tangent of its own.
-  Trial reach(double step) const;
+  BranchTrial reach(double step) const;
   /// The plane at the end of the range that the last tangent leads to.
   BranchPlane range_end_ahead() const;
-  double next_step(const Trial& trial, double step) const;
+  double next_step(const BranchTrial& trial, double step) const;
   /// The trial, or a point on the way to it at which the branch is done.
-  Trial stop_on_the_way(Trial trial) const;
-  void accept(Trial trial);
+  BranchTrial stop_on_the_way(BranchTrial trial) const;
+  void accept(BranchTrial trial);
   /// Takes off the folds and pitchforks at a vertex, where the branch is born from one of half its
   /// period: these are no bifurcations of its orbits.
   void forget_vertex(const BranchPoint& vertex);
   /// The first point of the branch, with its tangent, if the way from a to b leads through that
   /// point.
-  Trial closing(const BranchPoint& a, const BranchPoint& b) const;
+  BranchTrial closing(const BranchPoint& a, const BranchPoint& b) const;
   /// Arc length from a from which on orbits repeat after half their period, if that is before b.
   std::optional<double> halving(const BranchPoint& a, const BranchPoint& b) const;
   /// advance(), which leaves bifurcations or an end behind where an exception leaves it.
@@ -82,7 +80,7 @@ class Continuation {
   /// Adds the bifurcations between two points; false: one of these could not be located.
   bool find_bifurcations(const BranchPoint& a, const BranchPoint& b);
   /// The point of the branch between a and b at an arc length from a.
-  Trial between(const BranchPoint& a, const BranchPoint& b, double length) const;
+  BranchTrial between(const BranchPoint& a, const BranchPoint& b, double length) const;
   /// Adds a bifurcation between two points; false: it could not be located.
   bool locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b);
   bool locate_grazings(const BranchPoint& a, const BranchPoint& b);
@@ -92,7 +90,7 @@ class Continuation {
   /// An orbit beyond a grazing at which all of a circle touches at once, so that no tangent leads
   /// across. The orbit touches all the time if the last one does not touch, or the other way round.
   /// @param u  parameter at the grazing, 0 at low and 1 at high
-  Trial beyond_grazing(const Bifurcation& grazes, double u) const;
+  BranchTrial beyond_grazing(const Bifurcation& grazes, double u) const;
   double limited(double step, const Vec& tangent) const;
 
   BranchCorrector corrector_;

@@ -85,7 +85,7 @@ BranchTrial Continuation::closing(const BranchPoint& a, const BranchPoint& b) co
   const Eigen::Index size = first.z.size() - 1;
   const double from = (a.z(size) - first.z(size)) * first.tangent(size),
                to = (b.z(size) - first.z(size)) * first.tangent(size);
-  Trial trial{.failure = "elsewhere"};
+  BranchTrial trial{.failure = "elsewhere"};
   if (branch_.points.size() < 3 || !(from < 0.0 && to >= 0.0)) return trial;
   BranchPlane at{Vec::Unit(size + 1, size), a.z + from / (from - to) * (b.z - a.z)};
   at.at(size) = first.z(size);
@@ -95,15 +95,15 @@ BranchTrial Continuation::closing(const BranchPoint& a, const BranchPoint& b) co
   return trial;
 }
 
-BranchTrial Continuation::stop_on_the_way(Trial trial) const {
+BranchTrial Continuation::stop_on_the_way(BranchTrial trial) const {
   const BranchPoint& last = branch_.points.back();
   const double step = trial.point.step;
-  if (Trial first = closing(last, trial.point); !first.failure) {
+  if (BranchTrial first = closing(last, trial.point); !first.failure) {
     trial = std::move(first);
     trial.end = {EndKind::closed, "it closes: the first orbit again"};
   }
   if (const auto place = halving(last, trial.point)) {
-    if (Trial vertex = between(last, trial.point, *place); !vertex.failure) {
+    if (BranchTrial vertex = between(last, trial.point, *place); !vertex.failure) {
       trial = std::move(vertex);
       trial.end = {EndKind::period_halved,
                    fmt::format("it has half the period from {:.10g} on", trial.point.value)};
@@ -141,7 +141,7 @@ BranchTrial Continuation::beyond_grazing(const Bifurcation& grazes, double u) co
         Vec z = (1.0 + outward * moved) * last.z;
         z(size) = u + way * ahead;
         if (z(size) < 0.0 || z(size) > 1.0) continue;
-        Trial trial = corrector_.correct({Vec::Unit(size + 1, size), z}, Vec());
+        BranchTrial trial = corrector_.correct({Vec::Unit(size + 1, size), z}, Vec());
         if (trial.failure || duty_of(trial.point) != wanted) continue;
         const Vec step = trial.point.z - last.z;
         if (corrector_.dot(step, step) > near * near || !corrector_.add_tangent(trial, step))
@@ -195,7 +195,7 @@ void Continuation::cross_or_end(const std::string& why) {
     const double u =
         std::clamp(last.z(last.z.size() - 1) + high * last.tangent(last.z.size() - 1), 0.0, 1.0);
     end.at.value = corrector_.value_of(u);
-    if (Trial beyond = beyond_grazing(end, u); !beyond.failure) {
+    if (BranchTrial beyond = beyond_grazing(end, u); !beyond.failure) {
       end.change = change_of(last.contacts[c], beyond.point.contacts[c]);
       branch_.bifurcations.push_back(std::move(end));
       branch_.end.reset();
@@ -214,7 +214,7 @@ BranchTrial Continuation::between(const BranchPoint& a, const BranchPoint& b, do
   const Vec chord = b.z - a.z;
   BranchPlane plane{chord / std::sqrt(corrector_.dot(chord, chord)), a.z};
   plane.at += length * plane.normal;
-  Trial trial = corrector_.correct(plane, by_parameter_);
+  BranchTrial trial = corrector_.correct(plane, by_parameter_);
   // where two branches meet there is no single tangent
   if (!trial.failure && !corrector_.add_tangent(trial, plane.normal)) {
     trial.point.tangent = plane.normal;
@@ -257,7 +257,7 @@ bool Continuation::locate(BifurcationKind kind, const BranchPoint& a, const Bran
   BranchPoint best = std::abs(f_a) < std::abs(f_b) ? a : b;
   double least = std::min(std::abs(f_a), std::abs(f_b));
   const auto f = [&](double length) {
-    Trial trial = between(a, b, length);
+    BranchTrial trial = between(a, b, length);
     if (trial.failure) return nan;
     const double value = test_function(kind, trial.point);
     if (std::abs(value) < least) {
@@ -288,7 +288,7 @@ bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
     while (high - low > 1e-12 && std::abs(beyond.z(beyond.z.size() - 1) -
                                           before.z(before.z.size() - 1)) > options_.located) {
       const double middle = 0.5 * (low + high);
-      Trial trial = between(a, b, middle);
+      BranchTrial trial = between(a, b, middle);
       if (trial.failure) return false;
       if (touch_alike(trial.point.contacts, before.contacts)) {
         low = middle;

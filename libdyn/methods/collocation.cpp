@@ -21,7 +21,6 @@ constexpr double coarsest_path = 1e-4;  ///< error of a path in free flight, by 
 constexpr double wanted_path = 1e-6;    ///< the same, aimed at
 constexpr double whole_turn = 2.0 * std::numbers::pi;
 
-/// One integration: the state, the step sizes, what has happened.
 /// The last piece of a step, which the observer has not seen.
 struct HeldPiece {
   Step piece;
@@ -34,6 +33,7 @@ bool touches(const MotionState& state) {
                      [](const ContactState& c) { return c.in_touch(); });
 }
 
+/// One integration: the state, the step sizes, what has happened.
 class CollocationRun {
  public:
   CollocationRun(const ContactSystem& system, MotionState& state, const IntegrationOptions& options,

@@ -293,7 +293,7 @@ Dop853Run::Result Dop853Run::accept(const std::optional<Event>& event, bool ends
   instant_events_ = 0;
   longest_ = std::numeric_limits<double>::infinity();
   state_.y = stepper_.end();
-  state_.phase = step_.end_angle();
+  state_.phase += step_.turn();
   if (ends_revolution) begin_revolution();
   ++result_.cost.steps;
   watcher_.moved_on();

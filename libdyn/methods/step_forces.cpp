@@ -100,7 +100,8 @@ StepForces::StepForces(const ContactSystem& system, StepTables& tables, double t
 
 bool StepForces::solve(Rung rung, const MotionState& from) {
   nodes_.begin(rung, from);
-  size_ = std::max(1.0, (from.y.array() / system_.state_scale().array()).abs().maxCoeff() / grown);
+  state_size_ =
+      std::max(1.0, (from.y.array() / system_.state_scale().array()).abs().maxCoeff() / grown);
   error_ = 0.0;
   if (nodes_.touching.empty()) return true;
   const bool sticks = std::any_of(from.contacts.begin(), from.contacts.end(),
@@ -142,7 +143,7 @@ bool StepForces::picard(const MotionState& from) {
       next.noalias() = tables_.project().lazyProduct(node_forces_);
       const double size_of_change = (next - a).cwiseAbs().maxCoeff();
       change = std::max(change, size_of_change);
-      effect = std::max(effect, size_of_change * weight_[i] * h / size_);
+      effect = std::max(effect, size_of_change * weight_[i] * h / state_size_);
       largest = std::max(largest, next.cwiseAbs().maxCoeff());
       a = next;
     }
@@ -254,8 +255,8 @@ bool StepForces::newton(const MotionState& from) {
       const int c = nodes_.touching[static_cast<std::size_t>(p)];
       const auto part = change.segment(2 * p * terms, 2 * terms);
       nodes_.force_of(c) -= part;
-      effect = std::max(
-          effect, part.cwiseAbs().maxCoeff() * weight_[static_cast<std::size_t>(c)] * h / size_);
+      effect = std::max(effect, part.cwiseAbs().maxCoeff() * weight_[static_cast<std::size_t>(c)] *
+                                    h / state_size_);
     }
     if (size_of_change <= rounding_of_forces * nodes_.a.cwiseAbs().maxCoeff() || effect <= 1e-3)
       return true;
@@ -276,7 +277,7 @@ void StepForces::estimate() {
         std::sqrt(std::min(1.0, (a.row(terms - 1).norm() + a.row(terms - 2).norm()) /
                                     (a.row(terms - 3).norm() + a.row(terms - 4).norm())));
     error_ = std::max(error_, weight_[static_cast<std::size_t>(c)] * tables_.size(nodes_.rung) *
-                                  last / size_ * (std::isfinite(fall) ? fall : 1.0));
+                                  last / state_size_ * (std::isfinite(fall) ? fall : 1.0));
   }
 }
 

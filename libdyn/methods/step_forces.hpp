@@ -79,7 +79,7 @@ class StepForces {
 
   // of the last solve
   NodeMotion nodes_;
-  double size_ = 1.0;  ///< of the state where the step starts, over `grown`; 1 or more
+  double state_size_ = 1.0;  ///< of the state where the step starts, over `grown`; 1 or more
   Mat node_forces_;
   double error_ = 0.0;  ///< over the tolerance
   long evaluations_ = 0;

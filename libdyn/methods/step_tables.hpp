@@ -41,6 +41,9 @@ class StepTables {
   ///
   /// @param longest  step size of rung 0 [s]
   StepTables(const ContactSystem& system, double longest);
+  // parts of a step refer to it
+  StepTables(const StepTables&) = delete;
+  StepTables& operator=(const StepTables&) = delete;
 
   double size(Rung rung) const;
   /// The shortest rung that is not below a duration.

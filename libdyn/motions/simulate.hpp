@@ -24,9 +24,9 @@ struct SimulationOptions {
 
 /// A recorded stretch of motion in reduced coordinates, at equal angles.
 struct Recording {
-  int samples = 0;       ///< per revolution
-  long revolutions = 0;  ///< whole ones that were recorded
-  Clock clock{};
+  int samples = 0;            ///< per revolution
+  long revolutions = 0;       ///< whole ones that were recorded
+  Clock clock{};              ///< of the rotor
   long first_revolution = 0;  ///< number of the first one since the start
   Vec time;                   ///< of every sample, since the start [s]
   Mat eta;                    ///< n x (revolutions * samples)
@@ -35,7 +35,7 @@ struct Recording {
 
   /// Angle of the rotor at a sample, from the start of the first revolution [rad].
   double angle(Eigen::Index sample) const {
-    return 2.0 * std::numbers::pi * static_cast<double>(sample) / samples;
+    return 2.0 * std::numbers::pi / samples * static_cast<double>(sample);
   }
   double speed() const { return clock.speed(); }               ///< at all samples [rad/s]
   double spacing() const { return clock.period() / samples; }  ///< between samples [s]

@@ -65,11 +65,11 @@ Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
   Eigen::Index next = 0;
   Vec now(layout.size());
   integrate(suitable_method(system), system, state, revolutions, {}, [&](const Step& step) {
-    const double before = turn * static_cast<double>(step.revolution);
+    const double begin = turn * static_cast<double>(step.revolution) + step.phase;
     for (; next < N; ++next) {
       const double phase = turn * static_cast<double>(next) / first_samples;
-      if (phase > before + step.end_angle()) break;
-      step.at(step.after_turn(phase - (before + step.phase)), now.data());
+      if (phase > begin + step.turn()) break;
+      step.at(step.after_turn(phase - begin), now.data());
       eta.col(next) = layout.eta(now);
     }
     return true;

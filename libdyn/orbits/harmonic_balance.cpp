@@ -79,7 +79,7 @@ HarmonicOrbit solve(const HarmonicEquations& equations, Mat u, const HarmonicOpt
   const HarmonicProblem& problem = equations.problem();
   struct Balance {
     Mat u;
-    HarmonicEquations::Evaluation of{};
+    HarmonicEvaluation of{};
     double residual = std::numeric_limits<double>::infinity();
   };
   const auto balance = [&](Mat at) {

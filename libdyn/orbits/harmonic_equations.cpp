@@ -229,10 +229,10 @@ void add_coefficients(const std::vector<PortSample>& samples, int harmonics, Eig
 
 }  // namespace
 
-HarmonicEquations::Evaluation HarmonicEquations::evaluate(const Mat& u, bool slopes) const {
+HarmonicEvaluation HarmonicEquations::evaluate(const Mat& u, bool slopes) const {
   interruption_point();
   const Eigen::Index P = ports(), terms = 2 * harmonics_ + 1;
-  Evaluation e;
+  HarmonicEvaluation e;
   e.g = springs_.asDiagonal() * u;
   if (slopes) {
     e.by_u = Mat::Zero(P * terms, P * terms);
@@ -259,7 +259,7 @@ HarmonicEquations::Evaluation HarmonicEquations::evaluate(const Mat& u, bool slo
   return e;
 }
 
-Mat HarmonicEquations::jacobian(const Evaluation& at) const {
+Mat HarmonicEquations::jacobian(const HarmonicEvaluation& at) const {
   const Eigen::Index P = ports(), size = at.by_u.rows();
   // dg/du with u' = w (k s_k cos - k c_k sin): columns of the rates move to those of u
   Mat slopes = at.by_u;
@@ -295,19 +295,19 @@ std::optional<Mat> HarmonicEquations::slope(const Mat& u, const Mat& g,
     first += p;
   }
   const Places places = places_of(by);
-  Vec springs = Vec::Zero(ports());  // their derivatives
+  Vec spring_slopes = Vec::Zero(ports());
   for (Eigen::Index j = 0; j < ports(); ++j) {
     if (springs_(j) == 0.0) continue;
     const double mobility = U_.row(j).dot(B_.col(j)),
                  changed = places.U.row(j).dot(B_.col(j)) + U_.row(j).dot(places.B.col(j));
-    springs(j) = springs_(j) * (2.0 * by.rate / problem_.rate - changed / mobility);
+    spring_slopes(j) = springs_(j) * (2.0 * by.rate / problem_.rate - changed / mobility);
   }
   const Mat x = motion(g), rates = differentiated(x);  // by theta
   const double w = frequency(), w_slope = by.rate / period_;
   Mat forces = loads_of(by, period_, harmonics_) + places.B * (g - springs_.asDiagonal() * U_ * x);
   forces -= by.K * x + B_ * (springs_.asDiagonal() * (places.U * x));
   forces -= (w_slope * problem_.D + w * by.D) * rates + 2.0 * w * w_slope * differentiated(rates);
-  g_slope += springs.asDiagonal() * (u - U_ * x);
+  g_slope += spring_slopes.asDiagonal() * (u - U_ * x);
   Mat slope = -(places.U * x) - U_ * respond(forces, g_slope);
   if (!slope.allFinite()) return std::nullopt;
   return slope;

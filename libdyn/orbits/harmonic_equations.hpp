@@ -71,11 +71,10 @@ class HarmonicEquations {
   /// K with the springs.
   const Mat& stiffness() const { return K_; }
 
-  using Evaluation = HarmonicEvaluation;
   /// Forces and slopes at displacements u (ports x (2 H + 1)).
-  Evaluation evaluate(const Mat& u, bool slopes) const;
+  HarmonicEvaluation evaluate(const Mat& u, bool slopes) const;
   /// dr / du, of size ports (2 H + 1).
-  Mat jacobian(const Evaluation& at) const;
+  Mat jacobian(const HarmonicEvaluation& at) const;
   /// dr / dp at displacements u that are held, p a parameter of the problem.
   ///
   ///   dr = -dU x - U dx,   Z dx = df + dB g + B dg - dZ x,   x = Z^-1 (f + B g)

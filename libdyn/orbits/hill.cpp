@@ -26,7 +26,7 @@ constexpr double resolved = 0.7;              ///< of the harmonics: modes that 
 /// rates.
 class InverseHill {
  public:
-  InverseHill(const HarmonicEquations& equations, const HarmonicEquations::Evaluation& at)
+  InverseHill(const HarmonicEquations& equations, const HarmonicEvaluation& at)
       : equations_(equations),
         at_(at),
         J_(equations.jacobian(at)),
@@ -83,7 +83,7 @@ class InverseHill {
   }
 
   const HarmonicEquations& equations_;
-  const HarmonicEquations::Evaluation& at_;
+  const HarmonicEvaluation& at_;
   DenseLu<Mat> J_;
   Eigen::Index n_, terms_;
 };
@@ -194,7 +194,7 @@ std::vector<Complex> within_a_strip(const std::vector<Complex>& all, double w) {
 }
 
 /// Eigenvalues of the mean of A(t).
-CVec mean_exponents(const HarmonicEquations& equations, const HarmonicEquations::Evaluation& at) {
+CVec mean_exponents(const HarmonicEquations& equations, const HarmonicEvaluation& at) {
   const HarmonicProblem& problem = equations.problem();
   const auto P = equations.ports();
   Mat K = equations.stiffness(), D = problem.D;

@@ -46,12 +46,10 @@ double repeating_time(const ContactSystem& system, const MotionState& from, doub
   Vec y(system.size());
   long number = 1, found = 0;
   integrate_single(t, {.tolerance = tolerance}, [&](const Step& step) {
-    const double before =
-        static_cast<double>(step.revolution - from.revolution) * turn - from.phase;
-    for (; number <= most; ++number) {
-      const double sought = static_cast<double>(number) * each - before;
-      if (sought > step.end_angle()) break;
-      step.at(step.after_turn(sought - step.phase), y.data());
+    const double begin =
+        static_cast<double>(step.revolution - from.revolution) * turn + step.phase - from.phase;
+    for (; number <= most && static_cast<double>(number) * each <= begin + step.turn(); ++number) {
+      step.at(step.after_turn(static_cast<double>(number) * each - begin), y.data());
       if (!(distance(system, y, from.y) < repeats[sure_repeats - 1])) continue;
       found = number;
       return false;

@@ -1,7 +1,9 @@
 #pragma once
 /// Who computes the pieces of a study: threads of this process, and other processes with theirs.
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -10,6 +12,7 @@
 
 #include "libbase/processes/ranks.hpp"
 #include "libbase/processes/work_queue.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/studies/away_pieces.hpp"
 #include "libdyn/studies/point_work.hpp"
 

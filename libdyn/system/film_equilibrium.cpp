@@ -99,6 +99,7 @@ Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, do
 
 struct FilmEquilibrium::State {
   Assembler assembler;
+  bool is_load_steady;  ///< the static load is the same at all speeds
   std::vector<OilFilm> films;
   std::mutex mutex{};
   std::shared_ptr<const Ports> ports{};  ///< of the last speed, if they depend on that
@@ -109,7 +110,8 @@ struct FilmEquilibrium::State {
   };
   std::map<double, Known> known{};  ///< by speed [rad/s]
 
-  explicit State(const Model& model) : assembler(model.structure) {
+  explicit State(const Model& model)
+      : assembler(model.structure), is_load_steady(is_static_load_steady(assembler)) {
     for (const OilFilm& film : model.films) {
       if (film.is_linearized) films.push_back(film);
     }
@@ -118,7 +120,7 @@ struct FilmEquilibrium::State {
 };
 
 std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) {
-  if (!ports || assembler.depends_on_speed() || !is_static_load_steady(assembler)) {
+  if (!ports || assembler.depends_on_speed() || !is_load_steady) {
     ports = std::make_shared<const Ports>(ports_of(films, assembler, Omega));
   }
   std::vector<FilmAtSpeed> at_this_speed;

@@ -39,8 +39,8 @@ struct Step {
   }
   /// Angle of the rotor, from the start of the revolution [rad].
   double angle(double s) const { return phase + s * turn_; }
-  /// The same at its end [rad].
-  double end_angle() const { return phase + turn_; }
+  /// By which the rotor turns in it [rad].
+  double turn() const { return turn_; }
   Instant instant(double s) const { return {angle(s), revolution}; }
   /// The s at which the rotor has turned by an angle since the start [rad], of one beyond the step
   /// the nearest end.
@@ -57,7 +57,7 @@ struct Step {
   }
 
  private:
-  double turn_ = 0.0;  // by which the rotor turns in it [rad]
+  double turn_ = 0.0;
 };
 
 /// Called with every step; returns false to stop the integration after it.

@@ -17,6 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// Columns of the variation with their slopes: how they jump at events, and where steps end for
+/// them.
 template <class P>
 class Deviations {
  public:
@@ -100,8 +102,8 @@ HWY_ATTR P Deviations<P>::along_event(const ContactLanes<P>& c, EventKind kind, 
 }
 
 /// Notes what a jump of the acceleration at an event of contact i does to deviations, as far as it
-/// is known before the next step
-/// (length: that of this one):  dy+ = dy- + (f+ - f-) (dg / dy dy-) / (dg / dt).
+/// is known before the next step:  dy+ = dy- + (f+ - f-) (dg / dy dy-) / (dg / dt).
+/// @param length  of this step
 template <class P>
 HWY_ATTR void Deviations<P>::note_jump(size_t i, EventKind kind, const P& length) {
   const int N = m_.N;

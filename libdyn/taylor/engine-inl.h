@@ -143,8 +143,8 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
 
 template <class P>
 HWY_ATTR void Engine<P>::unload(int l) {
-  Trajectory& t = *records_[static_cast<size_t>(l)].trajectory;
-  const LaneRecord& record = records_[static_cast<size_t>(l)];
+  LaneRecord& record = records_[static_cast<size_t>(l)];
+  Trajectory& t = *record.trajectory;
   t.state = motion_of(motion_, record.revolution, l);
   if constexpr (!P::is_double) {
     t.lower_digits.resize(motion_.layout().size());
@@ -177,7 +177,7 @@ HWY_ATTR void Engine<P>::unload(int l) {
     if (has_tangents()) variation_->unload(l, end - start, t);
   }
   motion_.active &= ~(uint64_t{1} << l);
-  records_[static_cast<size_t>(l)].trajectory = nullptr;
+  record.trajectory = nullptr;
 }
 
 /// Ends a trajectory that cannot go on; its state is the last good one.

@@ -69,8 +69,8 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
 template <class P>
 HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   const uint64_t bit = uint64_t{1} << l;
-  const Trajectory& t = *records_[static_cast<size_t>(l)].trajectory;
   LaneRecord& record = records_[static_cast<size_t>(l)];
+  const Trajectory& t = *record.trajectory;
   if (!record.watcher) record.watcher = std::make_unique<EventWatcher>(*t.system);
   Vec y = motion_.state_of(l);
   ContactStates states = motion_.contacts_of(l);

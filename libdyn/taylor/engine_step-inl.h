@@ -98,7 +98,8 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     }
   } else if constexpr (knows_tangents<P>) {
     if (has_tangents() && options_.exponents) variation_->orthonormalize(due_lanes(ends));
-    for (uint64_t rest = options_.growths ? ends : 0; rest != 0; rest &= rest - 1) {
+    for (uint64_t rest = has_tangents() && options_.growths ? ends : 0; rest != 0;
+         rest &= rest - 1) {
       const int l = __builtin_ctzll(rest);
       variation_->keep_growths(l, records_[static_cast<size_t>(l)].trajectory->growths);
     }
@@ -118,13 +119,13 @@ HWY_ATTR void Engine<P>::end_revolutions(uint64_t ends, bool is_observed) {
     ++record.revolution;
     ++watch_.revolutions;
     if (!motion_.equations.other_loads.empty()) {
-      motion_.equations.begin_revolution(*records_[static_cast<size_t>(l)].trajectory->system,
-                                         lane(motion_.clock.rate, l), record.revolution, l);
+      motion_.equations.begin_revolution(*record.trajectory->system, lane(motion_.clock.rate, l),
+                                         record.revolution, l);
       if constexpr (carries_slopes<P>) slopes_->begin_revolution(record.revolution);
     }
     remove_slip(motion_, *record.trajectory->system, l);
     if (options_.sections) {
-      std::vector<double>& sections = records_[static_cast<size_t>(l)].trajectory->sections;
+      std::vector<double>& sections = record.trajectory->sections;
       for (const P& y : motion_.y) sections.push_back(lane(y, l));
     }
     const bool is_alone = !is_observed && !has_tangents() && !carries_slopes<P>;

@@ -34,6 +34,7 @@ HWY_ATTR void move_with_distance(ContactLanes<P>& c, int N, P& h) {
   h.s = -(value.s * wide(typename P::Value(1.0) / rate.x));
 }
 
+/// Shortens a step to the first event in every lane.
 template <class P>
 class EventFinder {
  public:

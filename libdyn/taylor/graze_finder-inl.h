@@ -7,7 +7,9 @@
 #define WHIRL_GRAZE_FINDER_INL_H
 #endif
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "libdyn/taylor/motion_lanes-inl.h"
 #include "libdyn/taylor/slope_run.hpp"
@@ -16,6 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// Tells the events of a motion with slopes, and where it nearly has one or nearly has none.
 template <class P>
 class GrazeFinder {
  public:

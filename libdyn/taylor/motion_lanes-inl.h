@@ -61,6 +61,10 @@ struct MotionLanes {
     }
   }
 
+  // parts of the engine refer to it
+  MotionLanes(const MotionLanes&) = delete;
+  MotionLanes& operator=(const MotionLanes&) = delete;
+
   StateLayout layout() const { return n; }
   /// Coefficient k of all coordinates.
   HWY_ATTR inline P* term(int k) {

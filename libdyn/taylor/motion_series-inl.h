@@ -15,6 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// Makes the series of the motion in a step: forces of an order, then the acceleration, then the
+/// coordinates two orders on.
 template <class P>
 class MotionSeries {
  public:

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "libdyn/taylor/deviations-inl.h"
+#include "libdyn/taylor/engine-inl.h"
 #include "libdyn/taylor/graze_finder-inl.h"
 #include "libdyn/taylor/lane_record.hpp"
 #include "libdyn/taylor/slope_limit-inl.h"
@@ -212,9 +213,8 @@ HWY_ATTR void SlopeCarrier<P, true>::jump(size_t i, EventKind kind, const Saltat
 ///
 /// - to the instant of an event. Their rate jumps there, and so would they beside that instant;
 /// - to the same depth close to the surface of a law that has no Taylor series there, unless a
-/// revolution
-///   ends: second derivatives of its force grow without bound, but not beside motions that are
-///   equally deep;
+///   revolution ends: second derivatives of its force grow without bound, but not beside motions
+///   that are equally deep;
 /// - to the last sample, before any event.
 template <class P>
 HWY_ATTR P SlopeCarrier<P, true>::end_of_step(const P& h, uint64_t& fell, uint64_t ends) {

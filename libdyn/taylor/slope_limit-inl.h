@@ -18,6 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// Shortens steps where slopes move faster than the motion.
 template <class P>
 class SlopeLimit {
  public:

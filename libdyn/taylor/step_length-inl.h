@@ -15,9 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// How far the series of a step may be trusted, and whether they are numbers at all.
 template <class P>
 struct StepLength {
-  double log2_tolerance = 0.0;
+  double log2_tolerance;
   typename P::Mask finite, bounded;  ///< lanes whose series is one of numbers, whose motion is of
                                      ///< sane size
 

@@ -7,7 +7,6 @@
 #define WHIRL_STICKING_INL_H
 #endif
 
-#include "libdyn/taylor/events-inl.h"
 #include "libdyn/taylor/motion_lanes-inl.h"
 #include "libdyn/taylor/tangents-inl.h"
 
@@ -15,6 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// tau of sticking contacts, order by order: what holds their slip at zero, in the motion and in
+/// the columns of its variation.
 template <class P>
 class Sticking {
  public:

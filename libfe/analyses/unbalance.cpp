@@ -39,14 +39,15 @@ struct UnbalanceSolver::State {
 
 UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
   const Sparse& T = assembler.dofs().T;
-  std::vector<Excitation> loads{{.growth = Growth::unbalance, .amplitude = CVec::Zero(T.cols())}};
+  std::vector<Excitation> loads{
+      {.order = 1.0, .growth = Growth::unbalance, .amplitude = CVec::Zero(T.cols())}};
   for (const Excitation& e : synchronous_excitations(assembler)) {
     const CVec own = T.transpose() * e.amplitude;
     const auto same = std::find_if(loads.begin(), loads.end(), [&](const Excitation& other) {
       return other.growth == e.growth;
     });
     if (same == loads.end()) {
-      loads.push_back({.growth = e.growth, .amplitude = own});
+      loads.push_back({.order = 1.0, .growth = e.growth, .amplitude = own});
     } else {
       same->amplitude += own;
     }

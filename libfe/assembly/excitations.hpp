@@ -44,8 +44,8 @@ std::vector<Excitation> synchronous_excitations(const Assembler& assembler);
 /// frequencies, ascending.
 std::vector<Excitation> other_excitations(const Assembler& assembler);
 
-/// All loads at a speed, those of one frequency together: the constant one, the synchronous one,
-/// then the others. The first two are there even where they are zero.
+/// All loads at a speed: the constant one, the synchronous one, then the others, those of one
+/// frequency and growth together. The first two are there even where they are zero.
 std::vector<Excitation> excitations_at(const Assembler& assembler, double Omega);
 
 /// Sum of amplitudes at a speed, a full vector [N, N.m].

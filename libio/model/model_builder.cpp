@@ -69,13 +69,14 @@ Model ModelBuilder::build() {
 }
 
 Model ModelBuilder::rebuild(const Model& base) {
-  // what is not named here begins anew, as for a table that is read for the first time
-  const auto& [title, source, path, structure, contacts, films, speed, has_speed, machine,
-               reduction, start] = base;
+  // all members, so that a new one does not compile until it is looked at here: what is not copied
+  // below begins anew
+  [[maybe_unused]] const auto& [title, source, path, structure, contacts, films, speed, has_speed,
+                                machine, reduction, start] = base;
   Model& model = reading_.model;
-  model.title = title;
-  model.structure = structure;
-  model.reduction = reduction;
+  model.title = base.title;
+  model.structure = base.structure;
+  model.reduction = base.reduction;
   for_each_in_turn([&](const ModelTable& table) {
     if (!table.is_of_rotor) table.read(reading_);
   });

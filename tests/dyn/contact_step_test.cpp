@@ -128,7 +128,7 @@ TEST(ContactStep, HasDenseOutputUpToItsLimit) {
       piece.at(1.0, y.data());
       EXPECT_LT(distance(mass.scene.contacts, y, end), of_steps);
       EXPECT_NEAR(piece.phase, mass.p.Omega * t, 1e-12);
-      EXPECT_NEAR(piece.end_angle(), mass.p.Omega * (t + piece.h), 1e-12);
+      EXPECT_NEAR(piece.turn(), mass.p.Omega * piece.h, 1e-12);
       t += piece.h;
       last = end;
       return true;

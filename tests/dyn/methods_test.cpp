@@ -64,7 +64,7 @@ TEST_P(EveryMethod, GivesStepsThatJoin) {
         } else {
           EXPECT_NEAR(step.phase, phase, 1e-12);
         }
-        EXPECT_NEAR(step.end_angle(), step.phase + step.h * test::P1.Omega, 1e-14);
+        EXPECT_NEAR(step.turn(), step.h * test::P1.Omega, 1e-14);
         step.at(0.0, z.data());
         EXPECT_LT(distance(scene.contacts, y, z), interpolation);
         step.at(1.0, y.data());
@@ -90,7 +90,7 @@ TEST_P(EveryMethod, InterpolatesWithinItsSteps) {
     MotionState state = start;
     Vec y(8);
     test::run(scene, state, 1, {.tolerance = tolerance, .method = m}, [&](const Step& step) {
-      const double s = (phase - step.phase) / (step.end_angle() - step.phase);
+      const double s = (phase - step.phase) / step.turn();
       if (s < 0.0 || s > 1.0) return true;
       step.at(s, y.data());
       return false;
