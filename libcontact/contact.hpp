@@ -14,7 +14,7 @@ struct Contact {
   std::string name;
   Station at;
   Station against;  ///< the ground or a body
-  /// Of a ring its radius, of an ellipse half the short axis, of a stop and a face along them [m].
+  /// Radius of a ring, half the short axis of an ellipse, distance to a stop or face [m].
   double clearance = 0.0;
   Vec2 offset = Vec2::Zero();  ///< middle of the clearance [m]
   Friction friction;

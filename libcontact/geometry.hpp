@@ -124,7 +124,7 @@ ContactGap<T> gap_to_wall(const GapMotion<T>& m, const WallNumbers<T>& of, const
   using std::sqrt;
   ContactGap<T> g;
   const T square = Wall::square(m.d[0], m.d[1], of);
-  if (value_of(square) == 0.0) {  // the middle; what is no number is none below, too
+  if (value_of(square) == 0.0) {  // the middle; NaN takes the other branch and stays NaN
     g.r = T(0.0);
     g.depth = -clearance;
     g.n = {T(1.0), T(0.0)};

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
-/// Clock (libdyn/system/clock.hpp) in lanes: the angle is the time times a rate. What makes
-/// angle of time in a step asks here, or is named in README.md.
+/// Clock (libdyn/system/clock.hpp) in lanes: the angle is the time times a rate. Other
+/// parts that know that the speed is constant are named in README.md.
 template <class P>
 struct ClockLanes {
   using Number = typename P::Number;

@@ -113,8 +113,8 @@ std::map<std::string, int> members_in(std::istream& source) {
   static const std::regex head(
       R"(^(?:class|struct) (?:\w+ )*?(\w+)(?:<.*>)?(?: final)?(?: :.*)? \{$)"),
       member(R"(^  [^ /}#:])"),
-      no_member(
-          R"(^  (?:template|requires|using|friend|static_assert|HWY_ATTR$|__attribute__\S*$|.* = delete;$))");
+      no_member(R"(^  (?:template|requires|using|friend|static_assert|HWY_ATTR$|__attribute__\S*$))"
+                R"(|^  .* = delete;$)");
   std::map<std::string, int> found;
   std::string name;
   for (std::string line; std::getline(source, line);) {
