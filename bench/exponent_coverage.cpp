@@ -17,6 +17,7 @@
 
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/studies/exponents.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/text/table.hpp"
 #include "tests/support/scenes.hpp"

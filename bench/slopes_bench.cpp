@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "libdyn/system/model.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 #include "tests/support/scenes.hpp"

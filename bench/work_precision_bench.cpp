@@ -7,6 +7,7 @@
 
 #include "bench/odeint.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/system/model.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "libfe/analyses/modes.hpp"
+#include "libfe/parts/structure.hpp"
 
 int main() {
   using namespace whirl;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/model.hpp"
 
 namespace whirl::inline data {
 

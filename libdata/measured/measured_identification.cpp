@@ -9,6 +9,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libdata/measured/record_doubts.hpp"
 #include "libdyn/motions/motion_lines.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/analyses/campbell.hpp"
 
 namespace whirl::inline data {

@@ -11,6 +11,7 @@
 #include "libbase/structs/field.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/assembly/assemble.hpp"
+#include "libfe/parts/probe.hpp"
 
 namespace whirl::inline dyn {
 

@@ -7,6 +7,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/resting_rotor.hpp"
 #include "libfe/lateral/rigid_supports.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/resting_rotor.hpp"
 
 namespace whirl::inline dyn {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/resting_rotor.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/assembly/excitations.hpp"

@@ -8,6 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/system/memory.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {

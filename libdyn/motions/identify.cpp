@@ -7,6 +7,7 @@
 
 #include "libdyn/motions/motion_lines.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "libfe/analyses/own_frequency_modes.hpp"
 #include "libfe/analyses/reduced_modes.hpp"

@@ -8,6 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/system/memory.hpp"
+#include "libdyn/system/model.hpp"
 
 namespace whirl::inline dyn {
 

@@ -9,6 +9,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/motions/equilibrium.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/analyses/modes.hpp"
 #include "libfe/analyses/static.hpp"
 #include "libfe/assembly/excitations.hpp"

@@ -6,6 +6,7 @@
 
 #include "libbase/numerics/roots.hpp"
 #include "libbase/structs/names.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/analyses/modes.hpp"
 #include "libfe/analyses/unbalance.hpp"
 

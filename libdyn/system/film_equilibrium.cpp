@@ -7,6 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/port_balance.hpp"
 #include "libfe/assembly/excitations.hpp"
 #include "libfe/eigen/symmetric.hpp"

@@ -4,6 +4,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/roots.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assembly/properties.hpp"
 #include "libfe/mesh/mesh.hpp"
 

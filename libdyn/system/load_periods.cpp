@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline dyn {
 

@@ -1,6 +1,7 @@
 #include "libdyn/system/model_facts.hpp"
 
 #include "libbase/error.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/resting_rotor.hpp"
 #include "libfe/assembly/assemble.hpp"
 #include "libfe/assembly/properties.hpp"

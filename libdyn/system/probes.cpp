@@ -1,6 +1,7 @@
 #include "libdyn/system/probes.hpp"
 
 #include "libdyn/system/scene.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline dyn {
 

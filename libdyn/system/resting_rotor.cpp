@@ -1,6 +1,7 @@
 #include "libdyn/system/resting_rotor.hpp"
 
 #include "libdyn/system/film_equilibrium.hpp"
+#include "libdyn/system/model.hpp"
 
 namespace whirl::inline dyn {
 

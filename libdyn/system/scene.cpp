@@ -8,6 +8,7 @@
 #include <span>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "libdyn/system/model.hpp"
 #include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/model.hpp"
 
 namespace whirl::inline dyn {
 

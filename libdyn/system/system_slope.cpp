@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/model.hpp"
 
 namespace whirl::inline dyn {
 

@@ -13,6 +13,7 @@
 #include "libbase/numerics/roots.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "libfe/analyses/shape_branches.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 

@@ -6,6 +6,7 @@
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/assembly/excitations.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 

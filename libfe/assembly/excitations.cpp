@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "libfe/parts/structure.hpp"
+
 namespace whirl::inline fe {
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 

@@ -1,6 +1,7 @@
 #include "libfe/assembly/properties.hpp"
 
 #include "libbase/numerics/quadrature.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 

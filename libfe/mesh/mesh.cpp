@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "libfe/parts/structure.hpp"
+
 namespace whirl::inline fe {
 
 namespace {

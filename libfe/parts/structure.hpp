@@ -12,21 +12,11 @@
 #include "libbase/numerics/linalg.hpp"
 #include "libfe/parts/bearings.hpp"
 #include "libfe/parts/material.hpp"
+#include "libfe/parts/probe.hpp"
 #include "libfe/parts/section.hpp"
+#include "libfe/parts/station.hpp"
 
 namespace whirl::inline fe {
-
-/// A place that something is attached to, as it was written.
-struct Station {
-  enum class Kind { position, node, body, ground };
-  Kind kind = Kind::ground;
-  double z = 0.0;    ///< position along the shaft [m]                     (Kind::position)
-  int node = 0;      ///< node number from 1                               (Kind::node)
-  std::string body;  ///< name of a body                                   (Kind::body)
-  Where where{};
-  std::string key{};  ///< path of the entry in the model file, for messages
-  bool operator==(const Station&) const = default;
-};
 
 /// Damping in proportion to mass and stiffness: C = mass M + stiffness K.
 struct Rayleigh {
@@ -211,41 +201,6 @@ struct Force {
   /// Whether it has the frequency of unbalance.
   bool is_synchronous() const { return order == 1.0; }
   bool operator==(const Force&) const = default;
-};
-
-/// A displacement probe: it reads the displacement of its station along a direction a across the
-/// shaft, x cos a + y sin a. With a radius r it looks along the shaft at a face that turns with it
-/// and reads how far the tilts move the face towards +z there: r (theta_x sin a - theta_y cos a).
-struct Probe {
-  std::string name;
-  Station at;
-  double angle = 0.0;  ///< of the direction or of the place on the face, from +x towards +y [rad]
-  double face_radius = 0.0;  ///< of the place on the face [m]; 0: it looks across the shaft
-  std::string unit = "um";   ///< a length, in which people are told what it reads
-
-  bool is_axial() const { return face_radius > 0.0; }
-
-  /// What it reads of a motion.
-  /// @param of  gives the motion's component 0 to 3, of x, y, theta_x and theta_y: numbers, which
-  ///            may be complex, or arrays of them; only those that the probe sees are asked for
-  template <class Of>
-  auto reading(const Of& of) const {
-    using Component = std::decay_t<decltype(of(0))>;
-    if (!is_axial()) return Component(of(0) * std::cos(angle) + of(1) * std::sin(angle));
-    return Component(of(2) * (face_radius * std::sin(angle)) -
-                     of(3) * (face_radius * std::cos(angle)));
-  }
-
-  bool operator==(const Probe&) const = default;
-
-  static constexpr auto fields() {
-    using enum Range;
-    return std::tuple{
-        required("angle", &Probe::angle, "rad", any, "of its direction, from +x towards +y"),
-        alternative("face_radius", &Probe::face_radius, "m", positive,
-                    "where it looks along the shaft at a face that turns with it"),
-        optional("unit", &Probe::unit, "", any, "length that people are told its readings in")};
-  }
 };
 
 /// A bearing or a seal (station to ground or body), or a link (any two stations).

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libbase/numerics/constants.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/stations.hpp"
 
 namespace whirl::inline io {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libdata/fit/fit_problem.hpp"
+#include "libdyn/system/model.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl::inline io {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libdyn/motions/start.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libio/text/parameter_axis.hpp"
 

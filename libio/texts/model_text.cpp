@@ -7,6 +7,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/structs/names.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/parts/exceeded_tables.hpp"
 #include "libio/model/model_doubts.hpp"
 #include "libio/text/format.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "libbase/numerics/constants.hpp"
+#include "libdyn/system/model.hpp"
 #include "libio/text/format.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assembly/excitations.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "libdyn/motions/simulate.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/analyses/modes.hpp"
 
 int main() {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libbase/numerics/dense.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libfe/analyses/unbalance.hpp"
 #include "libfe/parts/bow.hpp"

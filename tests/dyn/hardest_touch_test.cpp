@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "libdyn/system/model.hpp"
+
 namespace whirl::hardest_touch_test {
 
 TEST(HardestTouch, KeepsTheLargestForcesAndTheirMotions) {

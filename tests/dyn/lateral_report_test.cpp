@@ -11,6 +11,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
+#include "libdyn/system/model.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::lateral_report_test {

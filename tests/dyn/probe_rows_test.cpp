@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/scene.hpp"
 #include "tests/support/rotors.hpp"

@@ -11,6 +11,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/orbits/shooting.hpp"
+#include "libdyn/system/model.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::probes_test {

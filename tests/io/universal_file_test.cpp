@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "libbase/numerics/constants.hpp"
+#include "libdyn/system/model.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::universal_file_test {

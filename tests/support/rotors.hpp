@@ -7,6 +7,7 @@
 #include <string>
 
 #include "libfe/assembly/assemble.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::test {
 

@@ -8,6 +8,7 @@
 
 #include "libdyn/methods/methods.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libfe/mesh/elements/disk.hpp"
 #include "tests/support/convergence.hpp"
