@@ -23,11 +23,10 @@ template <class P>
 class SlopeLimit {
  public:
   SlopeLimit(MotionLanes<P>& of, double tolerance)
-      : m_(of), N(of.N), log2_tolerance_(std::log2(tolerance)) {
-    // as Tangents::reach
-    int sign = 1;
-    reach_ = std::exp((std::log(tolerance) + ::lgamma_r(N + 4.0, &sign)) / (N + 3.0));
-  }
+      : m_(of),
+        N(of.N),
+        log2_tolerance_(std::log2(tolerance)),
+        reach_(reach_of_slopes(tolerance, of.N)) {}
 
   void load(const ContactSystem& s) {
     const double fastest = fastest_mode(s);
@@ -42,8 +41,8 @@ class SlopeLimit {
   MotionLanes<P>& m_;
   int N;
   double log2_tolerance_;
+  double reach_;
   double fastest2_ = 0.0;     // square of the fastest rate of the linear part [1/s^2]
-  double reach_ = 0.0;        // rate times step at which a slope is as exact as the tolerance
   std::vector<double> gain_;  // per contact, largest eigenvalue of U B [1/kg]
   std::vector<typename Tangents<P>::FilmSlopes> film_slopes_;
 };

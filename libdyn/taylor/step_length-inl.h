@@ -15,6 +15,13 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// Logarithm to base 2 of the step at which the last term of a series, of an order, is as large as
+/// the tolerance.
+template <class V>
+HWY_ATTR inline V log2_step(const V& log2_tolerance, const V& last, int order) {
+  return (log2_tolerance - rough_log2(last)) * V(1.0 / order);
+}
+
 /// How far the series of a step may be trusted, and whether they are numbers at all.
 template <class P>
 struct StepLength {
@@ -48,12 +55,10 @@ HWY_ATTR P StepLength<P>::find(MotionLanes<P>& m) {
   finite = less(sum, P::is_double ? huge : huge * huge * huge);
   bounded = less(size, V(boundless));
   const V e(log2_tolerance);
-  const V h1 = (e - rough_log2(last)) * V(1.0 / (N + 2));
-  const V h2 = (e - rough_log2(before)) * V(1.0 / (N + 1));
-  V h = min(min(h1, h2), V(900.0));
+  V h = min(min(log2_step(e, last, N + 2), log2_step(e, before, N + 1)), V(900.0));
   if (!m.is_analytic) {  // steps get short at a surface: the last term of the velocity counts too
     const V speed = rough_log2(as<V>(m.clock.rate)) - V(std::log2(N + 2.0));
-    h = min(h, (e + speed - rough_log2(last)) * V(1.0 / (N + 1)));
+    h = min(h, log2_step(V(e + speed), last, N + 1));
   }
   return P(V(0.95) * rough_exp2(h));
 }

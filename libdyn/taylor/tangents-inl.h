@@ -8,6 +8,7 @@
 #endif
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "libdyn/taylor/contact_slopes-inl.h"
@@ -15,6 +16,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
+
+/// Rate times step at which a slope is as exact as the tolerance: where the first term that its
+/// series of N + 2 leaves out, (rate h)^(N+3) / (N+3)!, is as large.
+inline double reach_of_slopes(double tolerance, int N) {
+  int sign = 1;  // std::lgamma writes the global signgam, and several threads come here at once
+  return std::exp((std::log(tolerance) + ::lgamma_r(N + 4.0, &sign)) / (N + 3.0));
+}
 
 /// Memory of the tangents: nothing unless they are asked for.
 template <class P>
@@ -25,7 +33,7 @@ struct Tangents {
   P fastest2{0.0};          ///< square of the fastest rate of the linear part [1/s^2]
   P trace{0.0};             ///< divergence of the flow without contacts [1/s]
   P divergence{0.0};        ///< its integral with contacts
-  double reach = 0.0;       ///< rate times step at which a tangent is as exact as the tolerance
+  double reach = 0.0;       ///< as reach_of_slopes says
   std::vector<ContactSlopes<P>> slopes;
   std::vector<P> gain;  ///< per contact, largest eigenvalue of U B [1/kg]
   /// d(force of a film) = J d(displacement) + H d(velocity).

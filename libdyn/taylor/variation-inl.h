@@ -14,6 +14,7 @@
 #include "libdyn/flow/linear_flow.hpp"
 #include "libdyn/system/saltation.hpp"
 #include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/step_length-inl.h"
 #include "libdyn/taylor/sticking-inl.h"
 #include "libdyn/taylor/tangents-inl.h"
 
@@ -86,10 +87,7 @@ Variation<P>::Variation(MotionLanes<P>& of, Sticking<P>& sticking, const BatchOp
     track.terms.assign(m_.terms.size(), P(0.0));
   }
   t.gain.assign(m_.contacts.size(), P(0.0));
-  // the term that is left out, (w h)^(N+3) / (N+3)!, is as large as the tolerance;
-  // std::lgamma writes the global signgam, and several threads come here at once
-  int sign = 1;
-  t.reach = std::exp((std::log(options_.tolerance) + ::lgamma_r(N + 4.0, &sign)) / (N + 3.0));
+  t.reach = reach_of_slopes(options_.tolerance, N);
 }
 
 template <class P>
@@ -135,7 +133,7 @@ HWY_ATTR P Variation<P>::limit(const P& h) {
     square = square + select(c.in_touch, both_rates, P(0.0));
     if (!c.rows.is_analytic) {  // at a surface the slopes change faster than the force
       const P last = max(t.gain[i] * J.size(N), P(1e-280)) / (m_.clock.rate * P(N + 1.0));
-      const P steep = rough_exp2((P(log2_tolerance_) - rough_log2(last)) * P(1.0 / (N + 1)));
+      const P steep = rough_exp2(log2_step(P(log2_tolerance_), last, N + 1));
       longest = min(longest, select(c.in_touch, steep, h));
     }
   }

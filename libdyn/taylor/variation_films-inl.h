@@ -25,7 +25,7 @@ HWY_ATTR void Variation<P>::find_film_slopes(const P& h, P& square, P& longest) 
     const P damping = film.gain * (H.size(0) + H.size(1) * h);
     square = square + fma(damping, damping, film.gain * (J.size(0) + J.size(1) * h));
     const P last = max(film.gain * J.size(N), P(1e-280)) / (m_.clock.rate * P(N + 1.0));
-    longest = min(longest, rough_exp2((P(log2_tolerance_) - rough_log2(last)) * P(1.0 / (N + 1))));
+    longest = min(longest, rough_exp2(log2_step(P(log2_tolerance_), last, N + 1)));
   }
 }
 
