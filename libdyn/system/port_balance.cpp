@@ -106,7 +106,7 @@ PortBalance::PortBalance(const HeldRotor& rotor, std::vector<FilmAtSpeed> films,
   }
   away_ = ports_ * middle_ - offset;
   load_ = rotor.R + rotor.K * middle_;
-  const double size = load_.size() > 0 ? load_.cwiseAbs().maxCoeff() : 0.0;
+  const double size = load_.lpNorm<Eigen::Infinity>();  // 0 without ports
   size_ = size > 0.0 ? size : 1.0;
 }
 

@@ -13,6 +13,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/hill.hpp"
+#include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/contact_ports.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/analyses/unbalance.hpp"
@@ -389,7 +390,8 @@ TEST(HarmonicBalance, SaysThatAContactWouldStick) {
       << found.orbit.failure;
 }
 
-// Contact measures of an orbit are those of shooting, blades together; its period is the shortest.
+// Contact measures of an orbit are those of shooting and of its flight, blades together; its period
+// is the shortest.
 TEST(HarmonicBalance, MeasuresWhatContactsDo) {
   for (const Rub& rub : {rubs()[1], rubs()[3]}) {
     SCOPED_TRACE(rub.name);
@@ -401,6 +403,13 @@ TEST(HarmonicBalance, MeasuresWhatContactsDo) {
     ASSERT_TRUE(found.orbit.is_good()) << found.orbit.failure;
     EXPECT_EQ(shortest_period(found.orbit), rub.period);
     ASSERT_EQ(found.contacts.size(), exact.contacts.size());
+    MotionState state = test::state_of(y);
+    ContactMeter meter(scene.contacts);
+    test::run(scene, state, 2 * rub.period, {}, [&](const Step& step) {
+      meter.add(step);
+      return true;
+    });
+    const std::vector<ContactMeasure> flown = meter.measures();
     constexpr double near = 2e-2;  // of forces, the damped one following rates, by 30 harmonics
     for (std::size_t i = 0; i < exact.contacts.size(); ++i) {
       const ContactMeasure &a = found.contacts[i], &b = exact.contacts[i];
@@ -409,6 +418,9 @@ TEST(HarmonicBalance, MeasuresWhatContactsDo) {
       EXPECT_NEAR(a.duty, b.duty, near);
       EXPECT_NEAR(a.max_normal, b.max_normal, near * b.max_normal);
       EXPECT_NEAR(a.max_tangential, b.max_tangential, near * b.max_tangential);
+      const ContactMeasure& c = flown[i];
+      EXPECT_NEAR(a.mean_slip, c.mean_slip, near * std::abs(c.mean_slip));
+      EXPECT_NEAR(a.touch_time, c.touch_time, near * c.touch_time);
     }
   }
 }
