@@ -5,7 +5,7 @@
 
 #include "libcontact/friction.hpp"
 #include "libcontact/laws.hpp"
-#include "libfe/parts/structure.hpp"
+#include "libfe/parts/station.hpp"
 
 namespace whirl::inline contact {
 

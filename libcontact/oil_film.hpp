@@ -3,7 +3,7 @@
 #include <string>
 
 #include "libcontact/films.hpp"
-#include "libfe/parts/structure.hpp"
+#include "libfe/parts/station.hpp"
 
 namespace whirl::inline contact {
 

@@ -7,7 +7,7 @@
 
 #include "libdata/measured/key_phasor.hpp"
 #include "libdata/measured/measured_record.hpp"
-#include "libfe/parts/structure.hpp"
+#include "libfe/parts/probe.hpp"
 
 namespace whirl::inline data {
 

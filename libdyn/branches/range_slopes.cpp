@@ -9,6 +9,7 @@
 #include "libbase/numerics/quadrature.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/system_numbers.hpp"
 
 namespace whirl::inline dyn {
@@ -127,9 +128,7 @@ ContactSystem RangeSlopes::system_at(double value) const {
   const auto small = [&](const Mat& A) -> Mat { return T.transpose() * A * T; };
   const ReducedSystem& own = scene->reduced;
   const Model model = model_at_(value);
-  return ContactSystem(scene->assembler,
-                       {own.Phi * T, small(own.M), small(own.C), small(own.G), small(own.K),
-                        small(own.H), own.dofs, own.Omega},
+  return ContactSystem(scene->assembler, ReducedSystem{own.mapped(small), own.Phi * T, own.dofs},
                        model.contacts, model.films);
 }
 

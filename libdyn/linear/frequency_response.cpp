@@ -9,6 +9,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libbase/system/memory.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/analyses/modes.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
@@ -190,14 +191,13 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
     }
   }
   std::vector<LargestResponse> largest(from.size());
-  DynamicStiffness stiffness(system.M, system.C, system.G, system.K, system.H);
+  DynamicStiffness stiffness(system);
   // what holds nothing moves without end under a steady force, whatever rounding leaves of K
   const bool is_held = is_supported(symmetric_part(assembler.uncondensed(Omega, 0.0).stiffness()));
   for (Eigen::Index k = 0; k < count; ++k) {
     const double w = frequencies[static_cast<std::size_t>(k)];
     if (assembler.depends_on_whirl()) {
-      const System at = assembler.uncondensed(Omega, w);
-      stiffness = DynamicStiffness(at.M, at.C, at.G, at.K, at.H);
+      stiffness = DynamicStiffness(assembler.uncondensed(Omega, w));
     }
     bool is_bounded = true;
     for (std::size_t f = 0; f < from.size(); ++f) {

@@ -4,12 +4,13 @@
 
 #include <vector>
 
-#include "libdyn/system/model.hpp"
 #include "libfe/analyses/critical.hpp"
 #include "libfe/lateral/antinodes.hpp"
 #include "libfe/lateral/lateral_rules.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 /// A place that carries the rotor.
 struct Journal {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "libbase/structs/column.hpp"
-#include "libdyn/system/model.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/running_film.hpp"
 #include "libfe/analyses/bending.hpp"
@@ -15,6 +14,8 @@
 #include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 /// A place of the rotor at rest.
 struct RestingStation {

@@ -8,6 +8,8 @@
 
 namespace whirl::inline dyn {
 
+struct Start;
+
 /// State at the start of a simulation, from the model's [start].
 ///
 /// @param end  end of an earlier result, for `from = "file"`; may be null otherwise

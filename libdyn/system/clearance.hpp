@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "libbase/structs/column.hpp"
-#include "libdyn/system/model.hpp"
 #include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 /// A range of speeds [rad/s].
 struct SpeedRange {

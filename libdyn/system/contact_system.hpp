@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "libcontact/contact.hpp"
+#include "libcontact/oil_film.hpp"
 #include "libdyn/system/excitation.hpp"
 #include "libdyn/system/film.hpp"
 #include "libdyn/system/layout.hpp"
-#include "libdyn/system/model.hpp"
+#include "libfe/analyses/reduce.hpp"
 #include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {

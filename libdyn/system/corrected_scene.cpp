@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/system_slope.hpp"
 #include "libfe/analyses/static_shapes.hpp"
 
@@ -16,8 +17,9 @@ Scene corrected_scene(const Scene& scene, const Model& model, std::span<const Mo
   for (const Model& other : others) {
     const System changed = system_beside(scene, Assembler(other.structure), other);
     const Sparse K = system.stiffness(), changed_K = changed.stiffness();
+    const Sparse G = system.G(), changed_G = changed.G();
     const std::array pairs{std::pair(&changed.M, &system.M), std::pair(&changed.C, &system.C),
-                           std::pair(&changed.G, &system.G), std::pair(&changed_K, &K)};
+                           std::pair(&changed_G, &G), std::pair(&changed_K, &K)};
     for (const auto& [there, here] : pairs) {
       const Sparse change = *there - *here;
       if (!(change.norm() > rounding * here->norm())) continue;

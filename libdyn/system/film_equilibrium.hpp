@@ -5,13 +5,15 @@
 #include <memory>
 #include <vector>
 
-#include "libdyn/system/model.hpp"
 #include "libdyn/system/running_film.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libfe/analyses/modes.hpp"
 #include "libfe/assembly/assemble.hpp"
+#include "libfe/parts/bearings.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 /// A rotor carried by its films, without unbalance, contacts and whirl.
 struct RotorOnFilms {

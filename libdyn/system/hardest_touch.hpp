@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "libcontact/contact.hpp"
 #include "libdyn/system/contact_measures.hpp"
-#include "libdyn/system/model.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 /// The largest forces at a contact over one or many motions, and in which of these.
 struct HardestTouch {

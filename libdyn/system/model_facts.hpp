@@ -6,10 +6,11 @@
 
 #include "libbase/structs/column.hpp"
 #include "libdyn/system/clearance.hpp"
-#include "libdyn/system/model.hpp"
 #include "libfe/analyses/static.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 /// What a model has and weighs.
 struct ModelFacts {

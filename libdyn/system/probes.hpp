@@ -9,7 +9,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/linalg.hpp"
 #include "libbase/structs/column.hpp"
-#include "libfe/parts/structure.hpp"
+#include "libfe/parts/probe.hpp"
 
 namespace whirl::inline dyn {
 

@@ -3,11 +3,12 @@
 
 #include <vector>
 
-#include "libdyn/system/model.hpp"
 #include "libdyn/system/running_film.hpp"
 #include "libfe/analyses/static.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 struct RestingRotor {
   StaticEquilibrium at_rest;

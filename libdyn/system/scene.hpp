@@ -3,11 +3,12 @@
 
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/system/contact_system.hpp"
-#include "libdyn/system/model.hpp"
 #include "libdyn/system/trajectory.hpp"
 #include "libfe/analyses/reduce.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 struct Scene {
   Assembler assembler;

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "libbase/structs/column.hpp"
-#include "libdyn/system/model.hpp"
 #include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
+
+struct Model;
 
 /// A point with the names of what is there ("left disk", "seal"), joined by " + ".
 struct NamedPoint {

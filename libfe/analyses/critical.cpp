@@ -27,7 +27,7 @@ constexpr double rounding = 1e-13;     ///< of the largest nu: smaller ones have
 
 std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options) {
   const Sparse K = symmetric_part(system.stiffness());
-  const HermitianModes modes = largest_hermitian(symmetric_inertia(system.M), system.G,
+  const HermitianModes modes = largest_hermitian(symmetric_inertia(system.M), system.G(),
                                                  1.0 / options.order, K, options.count);
   std::vector<Critical> criticals;
   for (Eigen::Index i = 0; i < modes.nu.size(); ++i) {

@@ -63,24 +63,18 @@ Mat damped_basis(const Modes& modes, const Mat& rigid, const Sparse& M, int size
 }
 
 ReducedSystem unreduced(const System& system) {
-  const auto n = system.size();
-  return {Mat::Identity(n, n), Mat(system.M), Mat(system.C),
-          Mat(system.G),       Mat(system.K), system.circulates() ? Mat(system.H) : Mat::Zero(n, n),
-          system.dofs,         system.Omega};
+  return {system.mapped([](const Sparse& A) { return Mat(A); }),
+          Mat::Identity(system.size(), system.size()), system.dofs};
 }
 
 }  // namespace
 
 ReducedSystem in_shapes(const System& system, const Mat& Phi) {
-  const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
-  return {Phi,
-          small(system.M),
-          small(system.C),
-          small(system.G),
-          small(system.K),
-          system.circulates() ? small(system.H) : Mat::Zero(Phi.cols(), Phi.cols()),
-          system.dofs,
-          system.Omega};
+  const auto small = [&](const Sparse& A) -> Mat {
+    if (A.nonZeros() == 0) return Mat::Zero(Phi.cols(), Phi.cols());
+    return Phi.transpose() * (A * Phi);
+  };
+  return {system.mapped(small), Phi, system.dofs};
 }
 
 ReducedSystem project(const System& system, const Mat& basis) {
@@ -129,7 +123,7 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
   for (Eigen::Index j = 0; j < count; ++j)
     rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
   const CMat small_rows = reduced.Phi.transpose().cast<Complex>() * rows;
-  DynamicStiffness stiffness(system.M, system.C, system.G, system.K, system.H);
+  DynamicStiffness stiffness(system);
   double static_size = 0.0;  // of the receptance at the lowest frequency
   for (int s = 0; s < band_samples; ++s) {
     const double w = band * (s + 0.5) / band_samples;

@@ -45,18 +45,11 @@ struct Reduction {
   }
 };
 
-/// Equations of motion in few coordinates, q = Phi eta.
-struct ReducedSystem {
+/// Equations of motion in few coordinates, q = Phi eta, m x m. Every matrix is reduced by itself,
+/// so that they hold at another speed Omega as well as those of the System do.
+struct ReducedSystem : EquationsOfMotion<Mat> {
   Mat Phi;  ///< n x m; Phi^T M Phi = I, Phi^T K Phi diagonal but for skew parts ("none": identity)
-  Mat M, C, G, K, H;  ///< m x m, as those of the System
-  DofMap dofs;        ///< of the system that was reduced
-  double Omega = 0.0;
-
-  int size() const { return static_cast<int>(M.rows()); }
-  /// C + Omega G.
-  Mat D() const { return C + Omega * G; }
-  /// K + Omega H.
-  Mat stiffness() const { return K + Omega * H; }
+  DofMap dofs;  ///< of the system that was reduced
 };
 
 /// How far a reduced system is from the full one.

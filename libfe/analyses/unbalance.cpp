@@ -68,8 +68,7 @@ std::optional<CVec> UnbalanceSolver::at(double Omega) {
     return CVec(CVec::Zero(dofs().full_size));
   }
   if (!s.stiffness || s.assembler.tables_depend_on_speed()) {
-    const System system = s.assembler.uncondensed(Omega);
-    s.stiffness.emplace(system.M, system.C, system.G, system.K, system.H);
+    s.stiffness.emplace(s.assembler.uncondensed(Omega));
   }
   CVec force = s.loads[0].growth_at(Omega) * s.loads[0].amplitude;
   for (std::size_t i = 1; i < s.loads.size(); ++i) {
@@ -105,8 +104,7 @@ UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitat
   for (Eigen::Index s = 0; s < ns; ++s) {
     const double Omega = speeds[static_cast<std::size_t>(s)], w = load.frequency_at(Omega);
     if (!stiffness || changes) {
-      const System system = assembler.uncondensed(Omega, w);
-      stiffness.emplace(system.M, system.C, system.G, system.K, system.H);
+      stiffness.emplace(assembler.uncondensed(Omega, w));
     }
     const auto q = stiffness->solve(w, Omega, load.growth_at(Omega) * force);
     const CVec full = q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan));

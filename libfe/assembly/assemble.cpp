@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libbase/system/interruption.hpp"
@@ -16,6 +17,7 @@
 #include "libfe/mesh/rigid_ties.hpp"
 #include "libfe/mesh/shaft_elements.hpp"
 #include "libfe/parts/bow.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 
@@ -34,9 +36,8 @@ class Collector {
   }
   Sparse M(int n) const { return matrix(M_, n); }
   Sparse C(int n) const { return matrix(C_, n); }
-  Sparse G(int n) const { return matrix(G_, n); }
   Sparse K(int n) const { return matrix(K_, n); }
-  Sparse H(int n) const { return matrix(H_, n); }
+  SpinPart<Sparse> spin(int n) const { return {1.0, matrix(G_, n), matrix(H_, n)}; }
 
  private:
   template <class Block>
@@ -226,16 +227,17 @@ void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Colle
 }  // namespace
 
 Assembler::Assembler(Structure structure)
-    : structure_(std::move(structure)), mesh_(make_mesh(structure_)) {
-  check_probes(structure_);
-  dofs_ = freedoms_of_points(structure_, mesh_);
+    : structure_(std::make_shared<const Structure>(std::move(structure))),
+      mesh_(make_mesh(*structure_)) {
+  check_probes(*structure_);
+  dofs_ = freedoms_of_points(*structure_, mesh_);
   Collector collector;
-  add_rotor(structure_, mesh_, dofs_, collector);
+  add_rotor(*structure_, mesh_, dofs_, collector);
   const int n = dofs_.full_size;
   weighing_ = collector.M(n);
 
-  dofs_.T = freedoms_left(structure_, mesh_, dofs_);
-  for (const auto& [kind, list] : structure_.connections()) {
+  dofs_.T = freedoms_left(*structure_, mesh_, dofs_);
+  for (const auto& [kind, list] : structure_->connections()) {
     for (const Connection& c : list) {
       if (whirl::depends_on_speed(c.coefficients)) {
         tables_depend_on_speed_ = true;
@@ -246,32 +248,35 @@ Assembler::Assembler(Structure structure)
       }
     }
   }
-  fixed_ = {collector.M(n), collector.C(n), collector.G(n), collector.K(n), collector.H(n)};
-  if (!structure_.linearized.empty()) tables_depend_on_speed_ = true;
-  if (!structure_.modal_damping.ratios.empty()) {
+  fixed_ = {collector.M(n), collector.C(n), collector.K(n), {collector.spin(n)}};
+  if (!structure_->linearized.empty()) tables_depend_on_speed_ = true;
+  if (!structure_->modal_damping.ratios.empty()) {
     // modes at rest, where films carry nothing; with the added mass of tables
-    std::vector<LinearizedConnection> aside;
-    std::swap(aside, structure_.linearized);
+    Structure without_films = *structure_;
+    without_films.linearized.clear();
+    const auto whole =
+        std::exchange(structure_, std::make_shared<const Structure>(std::move(without_films)));
     const auto at_rest = [&] { return at(0.0); };
-    modal_ = modal_damping_matrix(structure_.modal_damping, at_rest, full(0.0, 0.0).M);
-    std::swap(aside, structure_.linearized);
+    modal_ = modal_damping_matrix(structure_->modal_damping, at_rest, full(0.0, 0.0).M);
+    structure_ = whole;
   }
 }
 
 std::optional<Assembler> Assembler::with_loads_of(const Structure& structure) const {
-  if (!differ_in_loads_alone(structure_, structure)) return std::nullopt;
+  if (!differ_in_loads_alone(*structure_, structure)) return std::nullopt;
   check_probes(structure);
   Assembler other = *this;
-  other.structure_ = structure;
+  other.structure_ = std::make_shared<const Structure>(structure);
   return other;
 }
 
-Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
+Assembler::FullEquations Assembler::full(double Omega, double omega) const {
   interruption_point();
-  FullMatrices f = fixed_;
+  FullEquations f = fixed_;
+  f.Omega = Omega;
   Collector collector;
   bool any = false;
-  for (const auto& [kind, list] : structure_.connections()) {
+  for (const auto& [kind, list] : structure_->connections()) {
     for (const Connection& c : list) {
       if (!whirl::depends_on_speed(c.coefficients)) continue;
       any = true;
@@ -284,13 +289,13 @@ Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
     f.K += collector.K(dofs_.full_size);
     f.C += collector.C(dofs_.full_size);
   }
-  const Rayleigh& r = structure_.damping;
+  const Rayleigh& r = structure_->damping;
   if (r.mass != 0.0) f.C += r.mass * f.M;
   if (r.stiffness != 0.0) f.C += r.stiffness * symmetric_part(f.K);
   if (modal_.nonZeros() > 0) f.C += modal_;
-  if (structure_.linearized.empty()) return f;
+  if (structure_->linearized.empty()) return f;
   Collector linearized;  // damping of the rotor is not in proportion to their stiffness
-  for (const LinearizedConnection& c : structure_.linearized) {
+  for (const LinearizedConnection& c : structure_->linearized) {
     linearized.add(matrices(c.at(Omega, omega)), indices(dofs_, point(c.from), point(c.to)));
   }
   f.K += linearized.K(dofs_.full_size);
@@ -298,26 +303,25 @@ Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
   return f;
 }
 
-System Assembler::system_of(const FullMatrices& f, const Sparse& T, double Omega) const {
-  System s{project(T, f.M), project(T, f.C), project(T, f.G), project(T, f.K), dofs_, Omega};
-  s.H = f.H.nonZeros() > 0 ? project(T, f.H) : Sparse(s.size(), s.size());
+System Assembler::system_of(const FullEquations& f, const Sparse& T) const {
+  System s{f.mapped([&](const Sparse& A) { return project(T, A); }), dofs_};
   s.dofs.T = T;
   return s;
 }
 
 System Assembler::uncondensed(double Omega, double omega) const {
-  return system_of(full(Omega, omega), dofs_.T, Omega);
+  return system_of(full(Omega, omega), dofs_.T);
 }
 
 System Assembler::at(double Omega, double omega) const {
-  const FullMatrices f = full(Omega, omega);
+  const FullEquations f = full(Omega, omega);
   const Sparse& T = dofs_.T;
   // condensation follows the conservative part of K: rotating damping vanishes with it
   const Sparse K = project(T, f.K);
   const std::vector<int> condensed =
-      condensable(project(T, f.M), project(T, f.C), project(T, f.G), K, touched_by_whirl());
-  if (condensed.empty()) return system_of(f, T, Omega);
-  System s = system_of(f, Sparse(T * condensation(K, condensed)), Omega);
+      condensable(project(T, f.M), project(T, f.C), project(T, f.G()), K, touched_by_whirl());
+  if (condensed.empty()) return system_of(f, T);
+  System s = system_of(f, Sparse(T * condensation(K, condensed)));
   s.dofs.condensed = static_cast<int>(condensed.size());
   return s;
 }
@@ -326,7 +330,7 @@ System Assembler::at(double Omega, double omega) const {
 std::vector<bool> Assembler::touched_by_whirl() const {
   if (!depends_on_whirl_) return {};
   std::vector<bool> is_end(static_cast<std::size_t>(dofs_.full_size), false);
-  for (const auto& [kind, list] : structure_.connections()) {
+  for (const auto& [kind, list] : structure_->connections()) {
     for (const Connection& c : list) {
       if (!whirl::depends_on_whirl(c.coefficients)) continue;
       for (const int i : indices(dofs_, point(c.from), point(c.to))) {
@@ -344,7 +348,7 @@ std::vector<bool> Assembler::touched_by_whirl() const {
 }
 
 Vec Assembler::gravity_load() const {
-  return inertia_load({0.0, -structure_.gravity});
+  return inertia_load({0.0, -structure_->gravity});
 }
 
 Vec Assembler::inertia_load(const Vec2& a) const {
@@ -357,7 +361,7 @@ Vec Assembler::inertia_load(const Vec2& a) const {
 
 CVec Assembler::unbalance() const {
   CVec u = CVec::Zero(dofs_.full_size);
-  for (const Unbalance& unbalance : structure_.unbalances) {
+  for (const Unbalance& unbalance : structure_->unbalances) {
     const Point p = point(unbalance.at);
     const Complex amplitude = std::polar(unbalance.moment, unbalance.phase);
     u(dofs_.full_index(p, X)) += amplitude;
@@ -368,7 +372,7 @@ CVec Assembler::unbalance() const {
 
 CVec Assembler::bow() const {
   CVec force = CVec::Zero(dofs_.full_size);
-  const std::vector<BowState> states = bow_states(structure_.bow, mesh_.z);
+  const std::vector<BowState> states = bow_states(structure_->bow, mesh_.z);
   if (states.empty()) return force;
   // x + i y = r turns with the shaft: u_x = r, u_y = -i r, and theta_y = x', theta_x = -y'
   CVec displacement = CVec::Zero(dofs_.full_size);
@@ -379,7 +383,7 @@ CVec Assembler::bow() const {
   for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
     const std::vector<int> index = indices(dofs_, {Point::Kind::node, mesh_.elements[e].left},
                                            {Point::Kind::node, mesh_.elements[e].right});
-    for (Beam beam : beams_along(e, structure_, mesh_)) {
+    for (Beam beam : beams_along(e, *structure_, mesh_)) {
       beam.axial_force = beam.torque = 0.0;  // these act along the true line, not the unbent one
       const Mat K = matrices(beam).K.topLeftCorner<8, 8>();
       force(index) += K * displacement(index);
@@ -389,9 +393,9 @@ CVec Assembler::bow() const {
 }
 
 Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {
-  const FullMatrices f = full(Omega, 0.0);
+  const FullEquations f = full(Omega, 0.0);
   const Vec displacement = dofs_.T * q;
-  return f.K * displacement + Omega * (f.H * displacement) - full_load;
+  return f.K * displacement + Omega * (f.H() * displacement) - full_load;
 }
 
 System assemble(const Structure& structure, double Omega) {

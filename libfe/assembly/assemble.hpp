@@ -1,31 +1,20 @@
 #pragma once
 /// From a structure to its sparse global matrices.
 
+#include <memory>
 #include <optional>
 
+#include "libfe/eigen/equations_of_motion.hpp"
 #include "libfe/mesh/dofs.hpp"
 #include "libfe/mesh/mesh.hpp"
-#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 
-/// Linear equations of motion: M q'' + (C + Omega G) q' + (K + Omega H) q = f.
-///
-/// G is gyroscopic and skew; H is circulatory and skew, of damping that rotates with the shaft. M,
-/// C and K need not be symmetric where bearings are not; they may hold for the speed Omega alone,
-/// see Assembler::tables_depend_on_speed.
-struct System {
-  Sparse M, C, G, K;
-  DofMap dofs;
-  double Omega = 0.0;  ///< [rad/s]
-  Sparse H{};          ///< without entries: nothing that rotates damps
+struct Structure;
 
-  int size() const { return static_cast<int>(M.rows()); }
-  bool circulates() const { return H.nonZeros() > 0; }
-  /// C + Omega G.
-  Sparse D() const { return C + Omega * G; }
-  /// K + Omega H.
-  Sparse stiffness() const { return circulates() ? Sparse(K + Omega * H) : K; }
+/// The equations of motion of a structure at a speed, n x n.
+struct System : EquationsOfMotion<Sparse> {
+  DofMap dofs;
 };
 
 /// Assembles one structure at any number of speeds.
@@ -42,16 +31,16 @@ class Assembler {
   /// structure.
   std::optional<Assembler> with_loads_of(const Structure& structure) const;
 
-  const Structure& structure() const { return structure_; }
+  const Structure& structure() const { return *structure_; }
   const Mesh& mesh() const { return mesh_; }
   /// Of the coordinates that supports leave, nothing condensed.
   const DofMap& dofs() const { return dofs_; }
-  Point point(const Station& station) const { return resolve(station, structure_, mesh_); }
+  Point point(const Station& station) const { return resolve(station, *structure_, mesh_); }
 
   /// Whether M, C or K change with speed (tables, films).
   bool tables_depend_on_speed() const { return tables_depend_on_speed_; }
   /// Whether the equations do beyond Omega G, by these or by damping that rotates.
-  bool depends_on_speed() const { return tables_depend_on_speed_ || fixed_.H.nonZeros() > 0; }
+  bool depends_on_speed() const { return tables_depend_on_speed_ || fixed_.circulates(); }
   /// Whether they change with the frequency of a motion, too.
   bool depends_on_whirl() const { return depends_on_whirl_; }
 
@@ -96,19 +85,17 @@ class Assembler {
   Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;
 
  private:
-  struct FullMatrices {
-    Sparse M, C, G, K, H;
-  };
-  FullMatrices full(double Omega, double omega) const;
+  using FullEquations = EquationsOfMotion<Sparse>;  // of the full vector
+  FullEquations full(double Omega, double omega) const;
   std::vector<bool> touched_by_whirl() const;
-  System system_of(const FullMatrices& f, const Sparse& T, double Omega) const;
+  System system_of(const FullEquations& f, const Sparse& T) const;
 
-  Structure structure_;
+  std::shared_ptr<const Structure> structure_;
   Mesh mesh_;
-  DofMap dofs_;         // supports eliminated, nothing condensed
-  FullMatrices fixed_;  // all that does not depend on speed
-  Sparse modal_;        // damping of modes at rest; empty: none
-  Sparse weighing_;     // inertia that has weight, of the full vector
+  DofMap dofs_;          // supports eliminated, nothing condensed
+  FullEquations fixed_;  // all that does not depend on speed
+  Sparse modal_;         // damping of modes at rest; empty: none
+  Sparse weighing_;      // inertia that has weight, of the full vector
   bool tables_depend_on_speed_ = false;
   bool depends_on_whirl_ = false;
 };

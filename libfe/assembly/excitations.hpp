@@ -8,6 +8,8 @@
 
 namespace whirl::inline fe {
 
+struct Force;
+
 /// How the amplitude of a load grows with the speed.
 enum class Growth {
   none,

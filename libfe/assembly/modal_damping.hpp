@@ -7,6 +7,8 @@
 
 namespace whirl::inline fe {
 
+struct ModalDamping;
+
 /// The damping that gives the modes at rest their ratios.
 ///
 ///   C = M Phi diag(2 zeta omega) Phi^T M,   K phi = omega^2 M phi,   Phi^T M Phi = I

@@ -21,17 +21,16 @@ Vec values_on(const Sparse& pattern, const Sparse& B) {
 
 }  // namespace
 
-DynamicStiffness::DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& G,
-                                   const Sparse& K, const Sparse& H) {
-  const bool circulates = H.nonZeros() > 0;
-  Sparse pattern = K + M + C + G;
-  if (circulates) pattern = Sparse(pattern + H);
+DynamicStiffness::DynamicStiffness(const EquationsOfMotion<Sparse>& e) {
+  const Sparse G = e.G(), H = e.H();
+  Sparse pattern = e.K + e.M + e.C + G;
+  if (e.circulates()) pattern = Sparse(pattern + H);
   pattern.makeCompressed();
   CSparse A = pattern.cast<Complex>();
   ComplexSparseLu solver(A);
-  state_ = std::make_unique<State>(
-      State{std::move(A), values_on(pattern, M), values_on(pattern, C), values_on(pattern, G),
-            values_on(pattern, K), circulates ? values_on(pattern, H) : Vec{}, std::move(solver)});
+  state_ = std::make_unique<State>(State{
+      std::move(A), values_on(pattern, e.M), values_on(pattern, e.C), values_on(pattern, G),
+      values_on(pattern, e.K), e.circulates() ? values_on(pattern, H) : Vec{}, std::move(solver)});
 }
 
 DynamicStiffness::~DynamicStiffness() = default;

@@ -3,15 +3,14 @@
 #include <memory>
 #include <optional>
 
-#include "libbase/numerics/linalg.hpp"
+#include "libfe/eigen/equations_of_motion.hpp"
 
 namespace whirl::inline fe {
 
-/// Solves (K + Omega H - w^2 M + i w (C + Omega G)) q = f for many frequencies of one system.
+/// Solves (K + Omega H - w^2 M + i w (C + Omega G)) q = f for many frequencies and speeds.
 class DynamicStiffness {
  public:
-  DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K,
-                   const Sparse& H);
+  explicit DynamicStiffness(const EquationsOfMotion<Sparse>& equations);
   ~DynamicStiffness();
   DynamicStiffness(DynamicStiffness&&) noexcept;
   DynamicStiffness& operator=(DynamicStiffness&&) noexcept;

@@ -12,6 +12,7 @@
 #include "libfe/assembly/properties.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
 
@@ -66,8 +67,7 @@ class CoupledRotor {
   /// it is infinite.
   Eigen::Matrix2cd receptance(double w, double tilt) {
     if (!stiffness_ || assembler_.depends_on_whirl()) {
-      const System system = assembler_.uncondensed(Omega_, w);
-      stiffness_.emplace(system.M, system.C, system.G, system.K, system.H);
+      stiffness_.emplace(assembler_.uncondensed(Omega_, w));
     }
     const DofMap& dofs = assembler_.dofs();
     const Point point = assembler_.point(at_);

@@ -3,9 +3,12 @@
 
 #include <vector>
 
-#include "libfe/parts/structure.hpp"
+#include "libfe/parts/station.hpp"
 
 namespace whirl::inline fe {
+
+struct Layer;
+struct Structure;
 
 /// A point that has displacements: a node of the shaft, a body, or the ground.
 struct Point {

@@ -28,7 +28,7 @@ struct NamedMatrix {
 };
 
 std::array<NamedMatrix, 4> matrices_of(const System& system) {
-  return {{{"M", system.M}, {"C", system.C}, {"G", system.G}, {"K", system.stiffness()}}};
+  return {{{"M", system.M}, {"C", system.C}, {"G", system.G()}, {"K", system.stiffness()}}};
 }
 
 std::string market_text(const Sparse& A) {
@@ -105,8 +105,7 @@ std::vector<fs::path> write_matrix_market(const fs::path& stem, const Model& mod
   std::vector<fs::path> files;
   for (const auto& [name, values] : matrices_of(system)) {
     files.emplace_back(fmt::format("{}_{}.mtx", stem.string(), name));
-    replace_file(files.back(), market_text(values),
-                 replaces_own(files.back(), mtx_head, replaces));
+    replace_file(files.back(), market_text(values), replaces_own(files.back(), mtx_head, replaces));
   }
   const std::vector<std::string> names = coordinate_names(system.dofs, model);
   const std::vector<double> places = coordinate_places(system.dofs, model, assembler);

@@ -94,7 +94,7 @@ py::dict ModelText::matrices() const {
   py::dict all;
   all["M"] = compressed_columns(system.M);
   all["C"] = compressed_columns(system.C);
-  all["G"] = compressed_columns(system.G);
+  all["G"] = compressed_columns(system.G());
   all["K"] = compressed_columns(system.stiffness());
   all["names"] = coordinate_names(system.dofs, model);
   all["z"] = coordinate_places(system.dofs, model, assembler);

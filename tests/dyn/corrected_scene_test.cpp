@@ -25,7 +25,7 @@ Model model_at(double k) {
 Complex answer(double k, const Mat& Phi) {
   const System system = Assembler(model_at(k).structure).at(3000.0 * rpm);
   const double w = system.Omega;
-  const Mat D = Mat(system.C) + w * Mat(system.G);
+  const Mat D = Mat(system.C) + w * Mat(system.G());
   const CMat full = Mat(system.K).cast<Complex>() - w * w * Mat(system.M).cast<Complex>() +
                     Complex(0.0, w) * D.cast<Complex>();
   const CMat small = Phi.transpose().cast<Complex>() * full * Phi.cast<Complex>();

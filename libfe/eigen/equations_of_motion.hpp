@@ -1,0 +1,60 @@
+#pragma once
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "libbase/numerics/linalg.hpp"
+
+namespace whirl::inline fe {
+
+/// What one shaft adds to the equations of motion by its spin: ratio Omega (G q' + H q).
+template <class Matrix>
+struct SpinPart {
+  double ratio = 1.0;  ///< of the speed of this shaft to Omega
+  Matrix G;            ///< gyroscopic, skew
+  Matrix H;            ///< circulatory, skew, of damping that rotates with the shaft
+};
+
+/// Linear equations of motion: M q'' + (C + Omega G) q' + (K + Omega H) q = f, with G and H summed
+/// over the shafts that spin.
+///
+/// M, C and K need not be symmetric where bearings are not; they may hold for the speed Omega
+/// alone, see Assembler::tables_depend_on_speed.
+template <class Matrix>
+struct EquationsOfMotion {
+  Matrix M, C, K;
+  std::vector<SpinPart<Matrix>> spins;
+  double Omega = 0.0;  ///< the speed [rad/s]
+
+  int size() const { return static_cast<int>(M.rows()); }
+  Matrix G() const { return sum(&SpinPart<Matrix>::G); }
+  Matrix H() const { return sum(&SpinPart<Matrix>::H); }
+  /// Whether H has entries: without, nothing that rotates damps.
+  bool circulates() const {
+    return std::ranges::any_of(spins, [](const auto& s) { return s.H.nonZeros() > 0; });
+  }
+  /// C + Omega G.
+  Matrix D() const { return C + Omega * G(); }
+  /// K + Omega H.
+  Matrix stiffness() const { return circulates() ? Matrix(K + Omega * H()) : K; }
+
+  /// The same equations with f(A) for every matrix A.
+  template <class F>
+  auto mapped(const F& f) const {
+    using Image = std::decay_t<decltype(f(M))>;
+    EquationsOfMotion<Image> image{f(M), f(C), f(K), {}, Omega};
+    for (const auto& s : spins) image.spins.push_back({s.ratio, f(s.G), f(s.H)});
+    return image;
+  }
+
+ private:
+  Matrix sum(Matrix SpinPart<Matrix>::*part) const {
+    if (spins.empty()) return 0.0 * M;
+    Matrix all = spins.front().ratio * spins.front().*part;
+    for (std::size_t i = 1; i < spins.size(); ++i) all += spins[i].ratio * spins[i].*part;
+    return all;
+  }
+};
+
+}  // namespace whirl::inline fe
