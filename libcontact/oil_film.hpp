@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "libbase/numerics/linalg.hpp"
 #include "libcontact/films.hpp"
 #include "libfe/parts/station.hpp"
 
