@@ -130,6 +130,12 @@ RawRecord read_wav_record(const std::filesystem::path& path) {
       }
       const std::size_t frame = form->sample_size() * form->channels;
       const std::size_t count = chunk.size() / frame;
+      if (count == 0) {
+        throw ModelError(where, "",
+                         fmt::format("has no samples: one of each channel takes {} bytes, {} are "
+                                     "there",
+                                     frame, chunk.size()));
+      }
       for (std::size_t c = 0; c < form->channels; ++c) {
         RawChannel& channel = raw.channels.emplace_back();
         channel.name = said.size() == form->channels ? said[c].name : std::to_string(c + 1);
