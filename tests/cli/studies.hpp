@@ -85,12 +85,13 @@ class Studies : public Program {
     long resumed = 0;
     for (int k = 0; k < kills || resumed == 0;) {
       const pid_t child = start(WHIRL_PROGRAM, words);
+      const auto started = std::chrono::steady_clock::now();
       if (k < kills) {
         std::this_thread::sleep_for(std::chrono::duration<double>(
             takes * std::uniform_real_distribution<double>(0.05, 0.9)(random)));
       } else {  // none of these moments was after something had been saved: such a one
         while (!std::filesystem::exists(folder / "killed.h5") && ::kill(child, 0) == 0 &&
-               std::chrono::steady_clock::now() - begin < std::chrono::seconds(60)) {
+               std::chrono::steady_clock::now() - started < std::chrono::seconds(60)) {
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
       }
@@ -101,13 +102,16 @@ class Studies : public Program {
         ASSERT_LT(k, kills + 20) << "nothing is saved before it ends";
         if (!std::filesystem::exists(folder / "killed.h5")) continue;
         const ResultReader file(folder / "killed.h5");  // whole, at whatever moment
-        if (file.number_attribute(group, "complete") == 1.0) continue;
-        ++resumed;
-      } else {  // it was done: compare, and begin again
+        if (file.number_attribute(group, "complete") != 1.0) {
+          ++resumed;
+          continue;
+        }
+      } else {
         ASSERT_EQ(outcome.status, 0) << outcome.err;
-        expect_same("whole.h5", "killed.h5", group);
-        std::filesystem::remove(folder / "killed.h5");
       }
+      // it was done, even if the kill came before its process had ended: compare, and begin again
+      expect_same("whole.h5", "killed.h5", group);
+      std::filesystem::remove(folder / "killed.h5");
     }
     ASSERT_EQ(whirl(words).status, 0);
     expect_same("whole.h5", "killed.h5", group);
