@@ -15,8 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
-/// Logarithm to base 2 of the step at which the last term of a series, of an order, is as large as
-/// the tolerance.
+/// Logarithm to base 2 of the step at which a term of a series is as large as the tolerance: its
+/// coefficient `last` times the step to the power `order`.
 template <class V>
 HWY_ATTR inline V log2_step(const V& log2_tolerance, const V& last, int order) {
   return (log2_tolerance - rough_log2(last)) * V(1.0 / order);

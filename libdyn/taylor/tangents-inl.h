@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
-/// Rate times step at which a slope is as exact as the tolerance: where the first term that its
-/// series of N + 2 leaves out, (rate h)^(N+3) / (N+3)!, is as large.
+/// Rate times step up to which a slope is as exact as the tolerance: its series ends with the power
+/// N + 2, and the first term that it leaves out, (rate h)^(N+3) / (N+3)!, is as large there.
 inline double reach_of_slopes(double tolerance, int N) {
   int sign = 1;  // std::lgamma writes the global signgam, and several threads come here at once
   return std::exp((std::log(tolerance) + ::lgamma_r(N + 4.0, &sign)) / (N + 3.0));
@@ -33,7 +33,7 @@ struct Tangents {
   P fastest2{0.0};          ///< square of the fastest rate of the linear part [1/s^2]
   P trace{0.0};             ///< divergence of the flow without contacts [1/s]
   P divergence{0.0};        ///< its integral with contacts
-  double reach = 0.0;       ///< as reach_of_slopes says
+  double reach = 0.0;       ///< largest rate times step, of reach_of_slopes
   std::vector<ContactSlopes<P>> slopes;
   std::vector<P> gain;  ///< per contact, largest eigenvalue of U B [1/kg]
   /// d(force of a film) = J d(displacement) + H d(velocity).

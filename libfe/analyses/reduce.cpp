@@ -123,6 +123,7 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
   for (Eigen::Index j = 0; j < count; ++j)
     rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
   const CMat small_rows = reduced.Phi.transpose().cast<Complex>() * rows;
+  const Mat small_K = reduced.stiffness(), small_D = reduced.D();
   DynamicStiffness stiffness(system);
   double static_size = 0.0;  // of the receptance at the lowest frequency
   for (int s = 0; s < band_samples; ++s) {
@@ -135,8 +136,8 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
       if (q) exact.col(j) = rows.transpose() * *q;
     }
     if (!is_regular) continue;
-    const CMat Z = (reduced.stiffness() - w * w * reduced.M).cast<Complex>() +
-                   Complex(0.0, w) * reduced.D().cast<Complex>();
+    const CMat Z =
+        (small_K - w * w * reduced.M).cast<Complex>() + Complex(0.0, w) * small_D.cast<Complex>();
     const CMat approximate = small_rows.transpose() * DenseLu<CMat>(Z).solve(small_rows);
     // at an antiresonance the static receptance is the measure, not the vanishing one
     if (static_size == 0.0) static_size = exact.norm();

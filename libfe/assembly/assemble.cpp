@@ -78,6 +78,7 @@ bool is_identity(const Sparse& T) {
 
 Sparse project(const Sparse& T, const Sparse& A) {
   if (is_identity(T)) return A;
+  if (A.nonZeros() == 0) return Sparse(T.cols(), T.cols());
   return T.transpose() * Sparse(A * T);
 }
 
@@ -95,10 +96,15 @@ Vec row_sizes(const Sparse& A) {
 /// Degrees of freedom without inertia whose damping is beta times their stiffness, with one common
 /// beta.
 /// @param stays  those that are not taken all the same; empty: none
-std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K,
+std::vector<int> condensable(const EquationsOfMotion<Sparse>& equations,
                              const std::vector<bool>& stays) {
   constexpr double tolerance = 1e-12;
-  const Vec mass = row_sizes(M), gyroscopic = row_sizes(G), stiffness = row_sizes(K);
+  const auto& [M, C, K, spin_parts, Omega] = equations;
+  const Vec mass = row_sizes(M), stiffness = row_sizes(K);
+  Vec gyroscopic = Vec::Zero(M.rows());  // of each shaft: shafts against each other may cancel
+  for (const SpinPart<Sparse>& part : spin_parts) {
+    gyroscopic = gyroscopic.cwiseMax(row_sizes(part.G));
+  }
   std::vector<int> massless;
   for (int i = 0; i < mass.size(); ++i) {
     const bool is_kept = !stays.empty() && stays[static_cast<std::size_t>(i)];
@@ -315,13 +321,11 @@ System Assembler::uncondensed(double Omega, double omega) const {
 
 System Assembler::at(double Omega, double omega) const {
   const FullEquations f = full(Omega, omega);
-  const Sparse& T = dofs_.T;
+  System whole = system_of(f, dofs_.T);
+  const std::vector<int> condensed = condensable(whole, touched_by_whirl());
+  if (condensed.empty()) return whole;
   // condensation follows the conservative part of K: rotating damping vanishes with it
-  const Sparse K = project(T, f.K);
-  const std::vector<int> condensed =
-      condensable(project(T, f.M), project(T, f.C), project(T, f.G()), K, touched_by_whirl());
-  if (condensed.empty()) return system_of(f, T);
-  System s = system_of(f, Sparse(T * condensation(K, condensed)));
+  System s = system_of(f, Sparse(dofs_.T * condensation(whole.K, condensed)));
   s.dofs.condensed = static_cast<int>(condensed.size());
   return s;
 }

@@ -8,6 +8,7 @@
 namespace whirl::inline fe {
 
 /// Solves (K + Omega H - w^2 M + i w (C + Omega G)) q = f for many frequencies and speeds.
+/// The speed of the equations does not count: each response has a speed of its own.
 class DynamicStiffness {
  public:
   explicit DynamicStiffness(const EquationsOfMotion<Sparse>& equations);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <type_traits>
 #include <vector>
 
@@ -16,23 +17,23 @@ struct SpinPart {
   Matrix H;            ///< circulatory, skew, of damping that rotates with the shaft
 };
 
-/// Linear equations of motion: M q'' + (C + Omega G) q' + (K + Omega H) q = f, with G and H summed
-/// over the shafts that spin.
+/// Linear equations of motion: M q'' + (C + Omega G) q' + (K + Omega H) q = f. G and H are sums
+/// over the shafts that spin, of the matrices of each shaft times the ratio of its speed.
 ///
 /// M, C and K need not be symmetric where bearings are not; they may hold for the speed Omega
 /// alone, see Assembler::tables_depend_on_speed.
 template <class Matrix>
 struct EquationsOfMotion {
   Matrix M, C, K;
-  std::vector<SpinPart<Matrix>> spins;
+  std::vector<SpinPart<Matrix>> spin_parts;
   double Omega = 0.0;  ///< the speed [rad/s]
 
   int size() const { return static_cast<int>(M.rows()); }
   Matrix G() const { return sum(&SpinPart<Matrix>::G); }
   Matrix H() const { return sum(&SpinPart<Matrix>::H); }
-  /// Whether H has entries: without, nothing that rotates damps.
+  /// Whether H is not zero: without, nothing that rotates damps.
   bool circulates() const {
-    return std::ranges::any_of(spins, [](const auto& s) { return s.H.nonZeros() > 0; });
+    return std::ranges::any_of(spin_parts, [](const auto& s) { return s.H.squaredNorm() > 0.0; });
   }
   /// C + Omega G.
   Matrix D() const { return C + Omega * G(); }
@@ -44,15 +45,21 @@ struct EquationsOfMotion {
   auto mapped(const F& f) const {
     using Image = std::decay_t<decltype(f(M))>;
     EquationsOfMotion<Image> image{f(M), f(C), f(K), {}, Omega};
-    for (const auto& s : spins) image.spins.push_back({s.ratio, f(s.G), f(s.H)});
+    for (const auto& s : spin_parts) image.spin_parts.push_back({s.ratio, f(s.G), f(s.H)});
     return image;
   }
 
  private:
   Matrix sum(Matrix SpinPart<Matrix>::*part) const {
-    if (spins.empty()) return 0.0 * M;
-    Matrix all = spins.front().ratio * spins.front().*part;
-    for (std::size_t i = 1; i < spins.size(); ++i) all += spins[i].ratio * spins[i].*part;
+    if (spin_parts.empty()) {
+      Matrix none(M.rows(), M.cols());
+      none.setZero();
+      return none;
+    }
+    Matrix all = spin_parts.front().ratio * spin_parts.front().*part;
+    for (std::size_t i = 1; i < spin_parts.size(); ++i) {
+      all += spin_parts[i].ratio * spin_parts[i].*part;
+    }
     return all;
   }
 };

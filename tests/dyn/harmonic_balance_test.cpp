@@ -409,7 +409,7 @@ TEST(HarmonicBalance, MeasuresWhatContactsDo) {
       meter.add(step);
       return true;
     });
-    const std::vector<ContactMeasure> flown = meter.measures();
+    const std::vector<ContactMeasure> simulated = meter.measures();
     constexpr double near = 2e-2;  // of forces, the damped one following rates, by 30 harmonics
     for (std::size_t i = 0; i < exact.contacts.size(); ++i) {
       const ContactMeasure &a = found.contacts[i], &b = exact.contacts[i];
@@ -418,7 +418,7 @@ TEST(HarmonicBalance, MeasuresWhatContactsDo) {
       EXPECT_NEAR(a.duty, b.duty, near);
       EXPECT_NEAR(a.max_normal, b.max_normal, near * b.max_normal);
       EXPECT_NEAR(a.max_tangential, b.max_tangential, near * b.max_tangential);
-      const ContactMeasure& c = flown[i];
+      const ContactMeasure& c = simulated[i];
       EXPECT_NEAR(a.mean_slip, c.mean_slip, near * std::abs(c.mean_slip));
       EXPECT_NEAR(a.touch_time, c.touch_time, near * c.touch_time);
     }

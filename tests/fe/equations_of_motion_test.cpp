@@ -33,9 +33,9 @@ void expect_same_modes(const Modes& modes, const Modes& expected) {
 TEST(EquationsOfMotion, EqualShaftsThatSpinAgainstEachOtherAreAtRest) {
   System s = rotor_that_damps(400.0);
   ASSERT_TRUE(s.circulates());
-  ASSERT_EQ(s.spins.size(), 1u);
-  s.spins.push_back(s.spins[0]);
-  s.spins[1].ratio = -1.0;
+  ASSERT_EQ(s.spin_parts.size(), 1u);
+  s.spin_parts.push_back(s.spin_parts[0]);
+  s.spin_parts[1].ratio = -1.0;
   EXPECT_TRUE(Mat(s.G()).isZero(0.0));
   EXPECT_EQ(Mat(s.D()), Mat(s.C));
   EXPECT_EQ(Mat(s.stiffness()), Mat(s.K));
@@ -44,7 +44,7 @@ TEST(EquationsOfMotion, EqualShaftsThatSpinAgainstEachOtherAreAtRest) {
 
 TEST(EquationsOfMotion, AShaftAtTwiceTheSpeedIsThatAtTwiceOmega) {
   System s = rotor_that_damps(200.0);
-  s.spins[0].ratio = 2.0;
+  s.spin_parts[0].ratio = 2.0;
   const System twice = rotor_that_damps(400.0);
   expect_same_modes(complex_modes(s, 6), complex_modes(twice, 6));
   const CVec force = CVec::Ones(s.size());
@@ -57,16 +57,29 @@ TEST(EquationsOfMotion, AShaftAtTwiceTheSpeedIsThatAtTwiceOmega) {
 // Every shaft is reduced by itself, so that the reduced equations hold at other ratios, too.
 TEST(EquationsOfMotion, AReducedSystemKeepsItsShaftsApart) {
   System s = rotor_that_damps(400.0);
-  s.spins.push_back({0.5, 3.0 * s.spins[0].G, 2.0 * s.spins[0].H});
+  s.spin_parts.push_back({0.5, 3.0 * s.spin_parts[0].G, 2.0 * s.spin_parts[0].H});
   const Mat Phi = Mat::Identity(s.size(), 4);
   ReducedSystem r = in_shapes(s, Phi);
-  ASSERT_EQ(r.spins.size(), 2u);
-  EXPECT_EQ(r.spins[1].ratio, 0.5);
-  EXPECT_EQ(r.G(), 2.5 * Mat(s.spins[0].G).topLeftCorner(4, 4));
-  EXPECT_EQ(r.H(), 2.0 * Mat(s.spins[0].H).topLeftCorner(4, 4));
-  r.spins[1].ratio = s.spins[1].ratio = -0.25;
+  ASSERT_EQ(r.spin_parts.size(), 2u);
+  EXPECT_EQ(r.spin_parts[1].ratio, 0.5);
+  EXPECT_EQ(r.G(), 2.5 * Mat(s.spin_parts[0].G).topLeftCorner(4, 4));
+  EXPECT_EQ(r.H(), 2.0 * Mat(s.spin_parts[0].H).topLeftCorner(4, 4));
+  r.spin_parts[1].ratio = s.spin_parts[1].ratio = -0.25;
   EXPECT_EQ(r.D(), Mat(s.D()).topLeftCorner(4, 4));
   EXPECT_EQ(r.stiffness(), Mat(s.stiffness()).topLeftCorner(4, 4));
+}
+
+TEST(EquationsOfMotion, CirculateWhereSomethingThatRotatesDamps) {
+  System s = rotor_that_damps(400.0);
+  const Mat Phi = Mat::Identity(s.size(), 4);
+  EXPECT_TRUE(in_shapes(s, Phi).circulates());
+  s.spin_parts[0].H = Sparse(s.size(), s.size());
+  EXPECT_FALSE(s.circulates());
+  EXPECT_FALSE(in_shapes(s, Phi).circulates());
+  s.spin_parts.clear();
+  EXPECT_FALSE(s.circulates());
+  EXPECT_EQ(s.G().nonZeros(), 0);
+  EXPECT_EQ(Mat(s.D()), Mat(s.C));
 }
 
 }  // namespace whirl::equations_of_motion_test

@@ -68,8 +68,8 @@ TEST(Modes, EllipsesOfACoupledMassHaveTheirClosedForm) {
   const double m = 2.0, kx = 900.0, ky = 1600.0, g = 10.0;
   System s = assemble(block(m, test::orthotropic(kx, ky)), 0.0);
   s.Omega = 1.0;
-  s.spins[0].G.coeffRef(0, 1) = +g;
-  s.spins[0].G.coeffRef(1, 0) = -g;
+  s.spin_parts[0].G.coeffRef(0, 1) = +g;
+  s.spin_parts[0].G.coeffRef(1, 0) = -g;
   const Modes modes = complex_modes(s, 2);
   ASSERT_EQ(modes.oscillatory.size(), 2u);
   const double sum = m * (kx + ky) + g * g, root = std::sqrt(sum * sum - 4 * m * m * kx * ky);
