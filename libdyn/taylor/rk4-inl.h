@@ -250,14 +250,14 @@ class Rk4Lanes {
     const P square = wall.square_of(x, yy), nothing(0.0);
     const Mask beyond = less(P(1.0), square);
     if (!any(square, beyond)) return;
-    const auto [depth, nx, ny] =
+    const WallGap<P> gap =
         wall.at(select(beyond, x, wall.harmless_x), select(beyond, yy, wall.harmless_y));
     c.displacement(layout().rates_at(y), vx, vy);
-    const P rate = fma(nx, vx, ny * vy);
+    const P rate = fma(gap.nx, vx, gap.ny * vy);
     const P N = with_alternative(
-        c.law, [&](const auto& law) HWY_ATTR { return law.normal(max(depth, nothing), rate); });
+        c.law, [&](const auto& law) HWY_ATTR { return law.normal(max(gap.depth, nothing), rate); });
     const P q = select(both(beyond, less(nothing, N)), N, nothing);
-    push_by(c, q, nx, ny, P(1.0), vx, vy, y, a);
+    push_by(c, q, gap.nx, gap.ny, P(1.0), vx, vy, y, a);
   }
 
   /// Adds -(q d + tau rot d), with the velocity (vx, vy) of the place.
