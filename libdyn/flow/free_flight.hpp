@@ -40,7 +40,7 @@ class FreeFlight {
   /// Whether the free motion of a system without oil films decays towards y_p, so that it can be
   /// finished.
   bool decays();
-  /// y_p at a phase, where the free motion decays to it.
+  /// y_p at a phase, after decays() has said that the free motion decays to it.
   Vec steady_state(double phase) const;
 
   /// Moves a state to phase 0 of revolution number last_revolution, in a time that does not grow

@@ -53,6 +53,10 @@ TEST(HardestTouch, FrictionTakesTheEnergyOfTheSpin) {
   const double energy = 0.5 * 0.05 * 300.0 * 300.0;
   EXPECT_DOUBLE_EQ(friction.revolutions,
                    energy / friction.power * 300.0 / (2.0 * std::numbers::pi));
+  // of a toy, too, which holds less than a joule
+  model.structure.bodies[0].Ip = 1e-6;
+  EXPECT_DOUBLE_EQ(friction_power(model, contact, 40.0).revolutions,
+                   0.5 * 1e-6 * 300.0 * 300.0 / friction.power * 300.0 / (2.0 * std::numbers::pi));
   model.structure.bodies[0].Ip = 0.0;
   EXPECT_TRUE(std::isnan(friction_power(model, contact, 40.0).revolutions));
 }

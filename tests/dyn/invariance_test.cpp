@@ -75,6 +75,25 @@ TEST(Invariance, MirroredAndBackwardInTimeTheMotionRetracesItself) {
 
 // Time is a revolution and a phase within it: a million revolutions later the same motion happens,
 // to the last bit.
+// A free mass in a ring about another center: both directions of slip, which the way of the mass
+// decides more than the slow spin.
+TEST(Invariance, MovingTheRingMovesTheMotion) {
+  test::MassInRing p{.Omega = 100.0, .k = 0.0, .kC = 1e6, .mu = 0.2, .R = 1e-4};
+  const Scene middle = p.scene();
+  p.offset = {3e-4, 5e-4};
+  const Scene aside = p.scene();
+  const Vec shift = (Vec(4) << p.offset, 0.0, 0.0).finished();
+  for (int k = 0; k < 12; ++k) {
+    const double angle = 2.0 * test::pi * k / 12;
+    const Vec y = (Vec(4) << 4e-4, -2e-4, 0.2 * std::cos(angle), 0.2 * std::sin(angle)).finished();
+    MotionState a = test::state_of(y), b = test::state_of(Vec(y + shift));
+    const Integration run = test::run(middle, a, 1);
+    EXPECT_GT(run.cost.events, 4) << k;
+    test::run(aside, b, 1);
+    EXPECT_LT(distance(middle.contacts, Vec(b.y - shift), a.y), 1e-7) << k;
+  }
+}
+
 TEST(Invariance, TheTimeSinceTheStartDoesNotMatter) {
   for (const AnyMethod& method :
        {AnyMethod(Dop853{}), AnyMethod(CvodeAdams{}), AnyMethod(CvodeBdf{})}) {

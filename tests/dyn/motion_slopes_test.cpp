@@ -420,23 +420,28 @@ TEST(MotionSlopes, OfTwoWindowsMakeThoseOfOne) {
 }
 
 // At a fixed time the rotor has turned further with the speed:  y_p|time = y_p|phase + t y' /
-// Omega.
+// Omega. Just behind an impact, too, whose time moves with the speed.
 TEST(MotionSlopes, AtFixedTimeAndAtFixedPhaseDifferByHowFarItTurns) {
   const DampedImpacts m;
   const ContactSystem& system = m.scene.contacts;
-  const double time = 3.4 * m.period();
   SlopeOptions how{.tolerance = 1e-15, .by_start = false};
-  const auto at_time = motion_slopes(system, m.start, {{time}}, m.parameters, how);
-  how.held = HeldSample::phase;
-  const auto at_phase = motion_slopes(system, m.start, {{time}}, m.parameters, how);
-  const MotionState& end = at_time.end;
-  Vec rate(system.size()), a(system.coordinates());
-  system.acceleration(end.instant(), end.y.data(), end.contacts, a.data());
-  rate << end.y.tail(system.coordinates()), a;
-  const Vec turned = at_phase.by_parameter[0].col(1) + time / system.Omega() * rate;
-  EXPECT_LT(difference(at_time.by_parameter[0].col(1), turned), 1e-11);
-  EXPECT_EQ(at_time.by_parameter[0].col(0), at_phase.by_parameter[0].col(0));
-  EXPECT_EQ(at_time.states, at_phase.states);
+  const double long_after = 3.4 * m.period();
+  const auto events = motion_slopes(system, m.start, {{long_after}}, m.parameters, how).events;
+  ASSERT_GT(events.size(), 2u);
+  for (const double time : {long_after, events[2].time + 1e-6 * m.period()}) {
+    how.held = HeldSample::time;
+    const auto at_time = motion_slopes(system, m.start, {{time}}, m.parameters, how);
+    how.held = HeldSample::phase;
+    const auto at_phase = motion_slopes(system, m.start, {{time}}, m.parameters, how);
+    const MotionState& end = at_time.end;
+    Vec rate(system.size()), a(system.coordinates());
+    system.acceleration(end.instant(), end.y.data(), end.contacts, a.data());
+    rate << end.y.tail(system.coordinates()), a;
+    const Vec turned = at_phase.by_parameter[0].col(1) + time / system.Omega() * rate;
+    EXPECT_LT(difference(at_time.by_parameter[0].col(1), turned), 1e-11);
+    EXPECT_EQ(at_time.by_parameter[0].col(0), at_phase.by_parameter[0].col(0));
+    EXPECT_EQ(at_time.states, at_phase.states);
+  }
 }
 
 // Nothing depends on what else is asked for, bit by bit.

@@ -29,6 +29,22 @@ TEST(Bow, IsTheElasticLineBetweenItsPoints) {
   }
 }
 
+// A spline through several points has no kink at them, and ends straight.
+TEST(Bow, BendsWithoutKinksAtItsPoints) {
+  constexpr double beside = 1e-7;  // [m]
+  const Bow bow{.z = {0.0, 0.1, 0.35, 0.5, 0.9},
+                .x = {0.0, 2e-4, -1e-4, 3e-4, 1e-4},
+                .y = {1e-4, 0.0, 0.0, -2e-4, 0.0}};
+  for (const double z : {0.1, 0.35, 0.5}) {
+    const auto at = bow_states(bow, {z - beside, z, z + beside});
+    EXPECT_LT(std::abs(at[2].slope - at[0].slope), 1e-6) << z;  // of slopes of some 1e-3
+    EXPECT_LT(std::abs(at[1].slope - at[0].slope), 1e-6) << z;
+  }
+  const auto ends = bow_states(bow, {0.0, beside, 0.9 - beside, 0.9});
+  EXPECT_LT(std::abs(ends[1].slope - ends[0].slope), 1e-12);
+  EXPECT_LT(std::abs(ends[3].slope - ends[2].slope), 1e-12);
+}
+
 TEST(Bow, OfTwoPointsIsStraightAndNeedsNoForce) {
   Structure s{.shaft = {cylinder(0.8, 0.04, 8)},
               .bow = {.z = {0.1, 0.6}, .x = {1e-4, 3e-4}, .y = {0.0, 1e-4}}};

@@ -62,6 +62,19 @@ TEST(CouplingStability, IsWhereTheFirstModeOfADiskedShaftLosesItsDamping) {
   EXPECT_NEAR(fastest, 0.0, 1e-8);
 }
 
+// The limit does not depend on how many modes are looked at.
+TEST(CouplingStability, OfFewKnownModesIsThatOfAll) {
+  const Structure s = test::two_disk(test::orthotropic(1e6, 1.6e6, 300.0, 500.0));
+  const CouplingStability all = coupling_stability(s, 400.0, at(0.75), {.count = 16});
+  ASSERT_TRUE(all.at_limit);
+  for (const int count : {1, 2, 4}) {
+    const CouplingStability found = coupling_stability(s, 400.0, at(0.75), {.count = count});
+    ASSERT_TRUE(found.at_limit) << count;
+    EXPECT_NEAR(found.at_limit->coupling, all.at_limit->coupling, 1e-6 * all.at_limit->coupling)
+        << count;
+  }
+}
+
 // Without damping any cross-coupled stiffness is too much: nothing is borne, nothing is lost on the
 // way.
 TEST(CouplingStability, OfAnUndampedRotorIsNone) {

@@ -168,6 +168,27 @@ TEST(FollowShapes, LooksCloserWhereShapesTurnWithinAStep) {
   EXPECT_GT(solved, 4);
 }
 
+// Two equal values of three, whose shapes a solver turns at will within their plane: each branch
+// keeps its own. The values are large and differ by rounding.
+TEST(FollowShapes, KeepsTheShapesOfEqualValuesThatASolverTurns) {
+  const SolveShapes solve = [](double t) {
+    const double a = 0.3 + 5.0 * t, c = std::cos(a), s = std::sin(a);
+    return std::vector<ShapedValue>{{1e5, Eigen::Vector3cd(c, s, 0.0)},
+                                    {1e5 + 1e-6, Eigen::Vector3cd(-s, c, 0.0)},
+                                    {2e5, Eigen::Vector3cd(0.0, 0.0, 1.0)}};
+  };
+  Sparse W(3, 3);
+  W.setIdentity();
+  const ShapeBranches found = follow_shapes({0.0, 0.1, 0.2, 0.3, 0.4}, solve, W, 1e6);
+  ASSERT_EQ(found.branches.size(), 3u);
+  for (const ShapeBranch& branch : found.branches) {
+    ASSERT_EQ(branch.at.size(), 5u);
+    for (const ShapedValue& v : branch.found) {
+      EXPECT_NEAR(std::abs(v.shape.dot(branch.found[0].shape)), 1.0, 1e-12);
+    }
+  }
+}
+
 TEST(FollowShapes, GoesOnBeyondAnEigenproblemThatFails) {
   const SolveShapes solve = [](double t) {
     if (t == 2.0) throw NumericalError("it does not converge");

@@ -113,12 +113,13 @@ TEST(Modes, CrossCouplingDrivesForwardWhirl) {
 // amplitudes one period apart.
 TEST(Modes, DampingOfOneMassIsTheClosedForm) {
   const double m = 3.0, k = 2700.0, w = 30.0;
-  for (const double zeta : {-0.1, 1e-5, 0.02, 0.4, 0.9}) {
+  for (const double zeta : {-0.1, 1e-5, 0.02, 0.4, 0.6, 0.9}) {
     const Modes modes =
         complex_modes(assemble(block(m, test::isotropic(k, 2.0 * zeta * m * w)), 0.0), 2);
     ASSERT_EQ(modes.oscillatory.size(), 2u);
     for (const Mode& mode : modes.oscillatory) {
       EXPECT_NEAR(mode.damping_ratio(), zeta, rounding);
+      EXPECT_EQ(mode.is_heavily_damped(), zeta > 0.5);
       const double period = 2.0 * pi / mode.frequency();
       EXPECT_NEAR(mode.log_decrement(), -mode.lambda.real() * period, 1e-9);
       EXPECT_NEAR(mode.frequency(), w * std::sqrt(1.0 - zeta * zeta), rounding * w);

@@ -102,6 +102,21 @@ TEST(Reduce, ShapesAreOrthonormalInMassAndStiffness) {
   }
 }
 
+// However small the entries are that a heavy rotor's shapes have.
+TEST(Reduce, ShapesOfHeavyBodiesHaveAPositiveLargestEntry) {
+  Structure bodies{.bodies = {{.name = "a", .m = 4e4}, {.name = "b", .m = 9e4}},
+                   .bearings = {test::bearing(test::body("a"), test::orthotropic(1e9, 2e9))},
+                   .links = {test::bearing(test::body("a"), test::isotropic(5e8))}};
+  bodies.links[0].to = test::body("b");
+  const System s = assemble(bodies, 0.0);
+  const ReducedSystem r = reduce(s, {.method = ReductionMethod::modal, .modes = 3}, {}, {});
+  ASSERT_EQ(r.size(), 3);
+  for (const auto& shape : r.Phi.colwise()) {
+    EXPECT_LT(shape.cwiseAbs().maxCoeff(), 0.01);
+    EXPECT_EQ(shape.maxCoeff(), shape.cwiseAbs().maxCoeff());
+  }
+}
+
 // Undamped and at rest, the modes kept are exact.
 TEST(Reduce, ModalIsExactForTheModesOfTheRotorAtRest) {
   const System s = assemble(test::two_disk(test::orthotropic(1e6, 2e6), 2), 0.0);

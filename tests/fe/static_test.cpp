@@ -160,6 +160,17 @@ TEST(StaticEquilibrium, TakesTheBearingsOfTheSpeed) {
   }
 }
 
+// Coefficients over the frequency of whirl: what stands still has none.
+TEST(StaticEquilibrium, TakesTheBearingsOfNoWhirl) {
+  const TableBearing table{
+      {.rows = {test::isotropic(1e4), test::isotropic(3e4)}, .whirl = {0.0, 100.0}}};
+  const Structure s{.bodies = {{.name = "block", .m = 2.0}},
+                    .bearings = {test::bearing(test::body("block"), AnyBearing(table))},
+                    .gravity = g};
+  const StaticEquilibrium e = static_equilibrium(Assembler(s), 50.0);
+  EXPECT_NEAR(e.displacement(1), -2.0 * g / 1e4, solves * 1e-3);
+}
+
 TEST(StaticEquilibrium, NeedsSupportsInBothDirections) {
   for (const auto& bearing :
        {test::isotropic(0.0), test::orthotropic(1e6, 0.0), test::orthotropic(0.0, 1e6)}) {
