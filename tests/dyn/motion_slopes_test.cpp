@@ -420,19 +420,23 @@ TEST(MotionSlopes, OfTwoWindowsMakeThoseOfOne) {
 }
 
 // At a fixed time the rotor has turned further with the speed:  y_p|time = y_p|phase + t y' /
-// Omega. Just behind an impact, too, whose time moves with the speed.
+// Omega. Steps that end at events, as deviations need them, change nothing of it, just behind an
+// impact either.
 TEST(MotionSlopes, AtFixedTimeAndAtFixedPhaseDifferByHowFarItTurns) {
   const DampedImpacts m;
   const ContactSystem& system = m.scene.contacts;
   SlopeOptions how{.tolerance = 1e-15, .by_start = false};
-  const double long_after = 3.4 * m.period();
-  const auto events = motion_slopes(system, m.start, {{long_after}}, m.parameters, how).events;
+  const double late = 3.4 * m.period();
+  const auto events = motion_slopes(system, m.start, {{late}}, m.parameters, how).events;
   ASSERT_GT(events.size(), 2u);
-  for (const double time : {long_after, events[2].time + 1e-6 * m.period()}) {
+  for (const double time : {late, events[1].time + 1e-3 * m.period()}) {
+    how.held = HeldSample::phase;
+    how.deviations = Mat();
+    const auto at_phase = motion_slopes(system, m.start, {{time}}, m.parameters, how);
     how.held = HeldSample::time;
     const auto at_time = motion_slopes(system, m.start, {{time}}, m.parameters, how);
-    how.held = HeldSample::phase;
-    const auto at_phase = motion_slopes(system, m.start, {{time}}, m.parameters, how);
+    how.deviations = Mat::Identity(8, 1);
+    const auto deviating = motion_slopes(system, m.start, {{time}}, m.parameters, how);
     const MotionState& end = at_time.end;
     Vec rate(system.size()), a(system.coordinates());
     system.acceleration(end.instant(), end.y.data(), end.contacts, a.data());
@@ -441,6 +445,7 @@ TEST(MotionSlopes, AtFixedTimeAndAtFixedPhaseDifferByHowFarItTurns) {
     EXPECT_LT(difference(at_time.by_parameter[0].col(1), turned), 1e-11);
     EXPECT_EQ(at_time.by_parameter[0].col(0), at_phase.by_parameter[0].col(0));
     EXPECT_EQ(at_time.states, at_phase.states);
+    EXPECT_LT(difference(deviating.by_parameter[0], at_time.by_parameter[0]), 1e-10);
   }
 }
 

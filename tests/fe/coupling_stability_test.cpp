@@ -45,6 +45,29 @@ TEST(CouplingStability, OfAJeffcottRotorIsTheClosedForm) {
   }
 }
 
+// Unlike springs and dampers along x and y:
+//   (m s^2 + c_x s + k_x) (m s^2 + c_y s + k_y) + Q^2 = 0,
+// a_4 s^4 + ... + a_0 = 0 with roots on the axis where a_0 = a_1 (a_3 a_2 - a_4 a_1) / a_3^2.
+TEST(CouplingStability, OfAnAnisotropicMassIsWhereRouthSays) {
+  const double m = 40.0, kx = 3e6, cx = 400.0;
+  for (const double share : {1.01, 1.3, 2.0, 6.0}) {
+    for (const double damping : {0.1, 1.0, 5.0}) {
+      SCOPED_TRACE(::testing::Message() << share << ' ' << damping);
+      const double ky = share * kx, cy = damping * cx;
+      const double a4 = m * m, a3 = m * (cx + cy), a2 = m * (kx + ky) + cx * cy;
+      const double a1 = cx * ky + cy * kx, a0 = a1 * (a3 * a2 - a4 * a1) / (a3 * a3);
+      const double Q = std::sqrt(a0 - kx * ky);
+      const Structure s{
+          .bodies = {{.name = "rotor", .m = m, .spins = true}},
+          .bearings = {test::bearing(test::body("rotor"), test::orthotropic(kx, ky, cx, cy))}};
+      const CouplingStability found = coupling_stability(s, 300.0, test::body("rotor"), {});
+      ASSERT_TRUE(found.at_limit);
+      EXPECT_NEAR(found.at_limit->coupling, Q, exact * Q);
+      EXPECT_NEAR(found.at_limit->frequency, std::sqrt(a1 / a3), exact * std::sqrt(a1 / a3));
+    }
+  }
+}
+
 // At Q_0 no mode of the rotor with it grows, and one neither grows nor decays.
 TEST(CouplingStability, IsWhereTheFirstModeOfADiskedShaftLosesItsDamping) {
   const Structure s = test::two_disk(test::orthotropic(1e6, 1.6e6, 300.0, 500.0));
