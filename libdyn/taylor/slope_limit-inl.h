@@ -41,7 +41,7 @@ class SlopeLimit {
   MotionLanes<P>& m_;
   int N;
   double log2_tolerance_;
-  double reach_;              // largest rate times step, of reach_of_slopes
+  double reach_;              // largest rate times step, from reach_of_slopes
   double fastest2_ = 0.0;     // square of the fastest rate of the linear part [1/s^2]
   std::vector<double> gain_;  // per contact, largest eigenvalue of U B [1/kg]
   std::vector<typename Tangents<P>::FilmSlopes> film_slopes_;

@@ -33,7 +33,7 @@ struct Tangents {
   P fastest2{0.0};          ///< square of the fastest rate of the linear part [1/s^2]
   P trace{0.0};             ///< divergence of the flow without contacts [1/s]
   P divergence{0.0};        ///< its integral with contacts
-  double reach = 0.0;       ///< largest rate times step, of reach_of_slopes
+  double reach = 0.0;       ///< largest rate times step, from reach_of_slopes
   std::vector<ContactSlopes<P>> slopes;
   std::vector<P> gain;  ///< per contact, largest eigenvalue of U B [1/kg]
   /// d(force of a film) = J d(displacement) + H d(velocity).

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <type_traits>
 #include <vector>
 
@@ -31,7 +30,7 @@ struct EquationsOfMotion {
   int size() const { return static_cast<int>(M.rows()); }
   Matrix G() const { return sum(&SpinPart<Matrix>::G); }
   Matrix H() const { return sum(&SpinPart<Matrix>::H); }
-  /// Whether H is not zero: without, nothing that rotates damps.
+  /// Whether the H of some shaft is not zero: otherwise nothing that rotates damps.
   bool circulates() const {
     return std::ranges::any_of(spin_parts, [](const auto& s) { return s.H.squaredNorm() > 0.0; });
   }
@@ -51,15 +50,9 @@ struct EquationsOfMotion {
 
  private:
   Matrix sum(Matrix SpinPart<Matrix>::*part) const {
-    if (spin_parts.empty()) {
-      Matrix none(M.rows(), M.cols());
-      none.setZero();
-      return none;
-    }
-    Matrix all = spin_parts.front().ratio * spin_parts.front().*part;
-    for (std::size_t i = 1; i < spin_parts.size(); ++i) {
-      all += spin_parts[i].ratio * spin_parts[i].*part;
-    }
+    Matrix all(M.rows(), M.cols());
+    all.setZero();
+    for (const SpinPart<Matrix>& s : spin_parts) all += s.ratio * s.*part;
     return all;
   }
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// The matrices of a rotor, M q'' + (C + Omega G) q' + K q = f, for programs that compute with
-/// them.
+/// them. Omega H of damping that rotates is in K.
 
 #include <filesystem>
 #include <string>

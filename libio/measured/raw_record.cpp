@@ -102,9 +102,9 @@ std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, boo
   std::map<std::string, bool> is_time;  // each unit is read once: there may be many channels
   return std::find_if(channels.begin(), channels.end(), [&](const RawChannel& c) {
     if (c.unit.empty()) return false;
-    const auto [unit, is_new] = is_time.try_emplace(c.unit, false);
-    if (is_new) unit->second = static_cast<bool>(unit_in_table(c.unit, "s"));
-    return unit->second && (!is_rate_known || always_ascends(samples_of(c)));
+    const auto [known, is_new] = is_time.try_emplace(c.unit, false);
+    if (is_new) known->second = static_cast<bool>(unit_in_table(c.unit, "s"));
+    return known->second && (!is_rate_known || always_ascends(samples_of(c)));
   });
 }
 

@@ -93,6 +93,7 @@ def _toml_of(tree: Mapping[str, Any]) -> str:
 class Matrices:
     """M q'' + (C + speed G) q' + K q = f of the rotor, supports eliminated, nothing condensed.
 
+    What damping that rotates with the shaft adds to the stiffness at the speed is in K.
     They can be taken apart: M, C, G, K = m.matrices().
     """
 

@@ -60,8 +60,8 @@ TEST(FreeFlight, KnowsItsSteadyState) {
   EXPECT_FALSE(FreeFlight(undamped.contacts).decays());
 }
 
-// Its circle of unbalance nearly fills its ring: between 256 places along it nothing is farther out
-// than 1e-4 of its radius.
+// The circle of unbalance leaves a thousandth of its ring, or reaches a thousandth beyond. What 256
+// places along a circle may miss is taken as 1.5e-4 of its radius.
 TEST(FreeFlight, IsCertainOfACircleOfUnbalanceThatFillsItsRing) {
   MassInRing p{.Omega = 130.0, .c = 20.0, .U = 1e-5, .clearance = 1e-3};
   const double r =

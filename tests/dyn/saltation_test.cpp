@@ -90,7 +90,7 @@ TEST(Saltation, HasTheGradientOfTheDepthWhereADampedContactTouches) {
   EXPECT_LT((s->gradient - gradient_by_differences(system, event.kind, y)).norm(), differences);
   const Vec before = rates(system, y, 0.3, apart), f = rates(system, y, 0.3, touching);
   EXPECT_LT((before + s->jump * s->gradient.dot(before) - f).norm(), rounding * f.norm());
-  // a motion that only grazes comes from neither side
+  // without a speed towards the wall there is no side to come from
   Vec still = y;
   still.tail(4).setZero();
   EXPECT_FALSE(saltation(system, event, 0.3, still, apart, touching));

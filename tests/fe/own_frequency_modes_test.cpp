@@ -112,9 +112,9 @@ TEST(OwnFrequencyModes, StiffnessThatIsLinearInTheFrequencyAsInClosedForm) {
   }
 }
 
-// A mass of 1 kg on a stiffness that is the same up to 52 rad/s and falls then, to 57^2 N/m at its
-// own frequency, and that damps nothing up to 58 rad/s and everything above: a step too far finds
-// nothing that oscillates.
+// A mass of 1 kg on a bearing. Its stiffness is constant up to 52 rad/s and falls above, to 57^2
+// N/m at 57 rad/s, which is the own frequency. Its damping is none up to 58 rad/s, and from 58.5
+// rad/s on so large that nothing oscillates: a step too far ends there.
 TEST(OwnFrequencyModes, AreFoundJustBelowWhereNothingOscillates) {
   const double w = 57.0, k = 1e4, low = k - 6.0 / 5.0 * (k - w * w);
   const AnyBearing table =

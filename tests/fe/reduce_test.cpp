@@ -102,7 +102,7 @@ TEST(Reduce, ShapesAreOrthonormalInMassAndStiffness) {
   }
 }
 
-// However small the entries are that a heavy rotor's shapes have.
+// The largest entry is positive where entries are small, too, as in shapes of heavy bodies.
 TEST(Reduce, ShapesOfHeavyBodiesHaveAPositiveLargestEntry) {
   Structure bodies{.bodies = {{.name = "a", .m = 4e4}, {.name = "b", .m = 9e4}},
                    .bearings = {test::bearing(test::body("a"), test::orthotropic(1e9, 2e9))},

@@ -160,7 +160,7 @@ TEST(StaticEquilibrium, TakesTheBearingsOfTheSpeed) {
   }
 }
 
-// Coefficients over the frequency of whirl: what stands still has none.
+// Of coefficients over the frequency of whirl, a sag takes those at zero.
 TEST(StaticEquilibrium, TakesTheBearingsOfNoWhirl) {
   const TableBearing table{
       {.rows = {test::isotropic(1e4), test::isotropic(3e4)}, .whirl = {0.0, 100.0}}};
