@@ -109,7 +109,7 @@ class Studies : public Program {
       } else {
         ASSERT_EQ(outcome.status, 0) << outcome.err;
       }
-      // it was done, even if the kill came before its process had ended: compare, and begin again
+      // the study was done, even if the kill came before its process ended: compare, begin again
       expect_same("whole.h5", "killed.h5", group);
       std::filesystem::remove(folder / "killed.h5");
     }

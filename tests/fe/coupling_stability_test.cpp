@@ -85,8 +85,7 @@ TEST(CouplingStability, IsWhereTheFirstModeOfADiskedShaftLosesItsDamping) {
   EXPECT_NEAR(fastest, 0.0, 1e-8);
 }
 
-// The limit of a rotor with so many coordinates that not all of its modes are looked at does not
-// depend on how many are.
+// Of a large rotor not all modes are looked at. The limit does not depend on how many are.
 TEST(CouplingStability, OfFewModesIsThatOfMany) {
   const Structure s = test::two_disk(test::orthotropic(1e6, 1.6e6, 300.0, 500.0), 4);
   ASSERT_GT(assemble(s, 400.0).size(), 80);

@@ -168,9 +168,9 @@ TEST(FollowShapes, LooksCloserWhereShapesTurnWithinAStep) {
   EXPECT_GT(solved, 4);
 }
 
-// Two equal values of three, whose shapes a solver turns at will within their plane: each branch
-// keeps its own. The values differ by 1e-11 of their size, less than the 1e-9 of it that counts as
-// equal, but by more than 1e-9 itself.
+// Two of three values are equal, and the solver turns their shapes at will within their plane: each
+// branch keeps its own shape. The two values differ by 1e-11 of their size, less than the 1e-9 of
+// it that counts as equal, but by more than 1e-9 itself.
 TEST(FollowShapes, KeepsTheShapesOfEqualValuesThatASolverTurns) {
   const SolveShapes solve = [](double t) {
     const double a = 0.3 + 5.0 * t, c = std::cos(a), s = std::sin(a);

@@ -309,6 +309,7 @@ TEST_F(RecordFile, ReadsSoundFiles) {
   expect_problem("a.wav", wav_file(16, two_frames, 80), "is cut off");
   expect_problem("a.wav", wav_file(12, two_frames, 8), "with 12 bits");
   expect_problem("a.wav", "RIFFxxxxWAVE", "no samples");
+  expect_problem("a.wav", wav_file(16, "", 0), "no samples");
   expect_problem("a.wav", wav_file(16, two_frames.substr(0, 3), 3),
                  "no samples: one of each channel takes 4 bytes, 3 are there");
   expect_problem("a.wav", "sound", "is no WAV file");
