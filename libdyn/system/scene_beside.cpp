@@ -40,19 +40,20 @@ bool same_shapes(const Scene& scene, const Model& model) {
 
 }  // namespace
 
-std::optional<Scene> scene_beside(const Scene& scene, const Model& model) {
+std::shared_ptr<const Scene> scene_beside(const Scene& scene, const Model& model) {
   const bool is_at_speed = scene.system.Omega == model.speed;
-  if (!is_at_speed && scene.assembler.tables_depend_on_speed()) return std::nullopt;
-  if (!same_shapes(scene, model)) return std::nullopt;
-  auto assembler = scene.assembler.with_loads_of(model.structure);
-  if (!assembler) return std::nullopt;
-  System system = scene.system;
-  system.Omega = model.speed;
+  if (!is_at_speed && scene.assembler.tables_depend_on_speed()) return nullptr;
+  if (!same_shapes(scene, model)) return nullptr;
+  const auto assembler = scene.assembler.with_loads_of(model.structure);
+  if (!assembler) return nullptr;
   ReducedSystem reduced = scene.reduced;
   reduced.Omega = model.speed;
   ContactSystem contacts(*assembler, reduced, model.contacts, model.films);
-  return Scene{
-      *std::move(assembler), std::move(system), std::move(reduced), {}, std::move(contacts)};
+  // moving sparse matrices copies them: those of the system are copied to where they stay
+  const std::shared_ptr<Scene> beside(
+      new Scene{*assembler, scene.system, std::move(reduced), {}, std::move(contacts)});
+  beside->system.Omega = model.speed;
+  return beside;
 }
 
 }  // namespace whirl::inline dyn

@@ -1,7 +1,7 @@
 #pragma once
 /// Scenes that differ little, as those of a study do.
 
-#include <optional>
+#include <memory>
 
 #include "libdyn/system/scene.hpp"
 
@@ -12,10 +12,10 @@ namespace whirl::inline dyn {
 /// of the reduction's error, without assembling or reducing anything again.
 ///
 /// @param scene  of a model of the same reduction; its contacts and films act at the same places
-/// @return  nothing where the structure differs in more than the sizes of its loads, where
+/// @return  null where the structure differs in more than the sizes of its loads, where
 ///          coefficients change with the speed, or where the shapes do: those of damped modes
 ///          change with the speed, as many modes as a tolerance needs with every frequency, static
 ///          shapes with the bow and with accelerations of the base
-std::optional<Scene> scene_beside(const Scene& scene, const Model& model);
+std::shared_ptr<const Scene> scene_beside(const Scene& scene, const Model& model);
 
 }  // namespace whirl::inline dyn

@@ -233,29 +233,32 @@ void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Colle
 }  // namespace
 
 Assembler::Assembler(Structure structure)
-    : structure_(std::make_shared<const Structure>(std::move(structure))),
-      mesh_(make_mesh(*structure_)) {
+    : structure_(std::make_shared<const Structure>(std::move(structure))) {
+  const auto made = std::make_shared<Assembled>();
+  assembled_ = made;
+  made->mesh = make_mesh(*structure_);
   check_probes(*structure_);
-  dofs_ = freedoms_of_points(*structure_, mesh_);
+  DofMap& dofs = made->dofs;
+  dofs = freedoms_of_points(*structure_, made->mesh);
   Collector collector;
-  add_rotor(*structure_, mesh_, dofs_, collector);
-  const int n = dofs_.full_size;
-  weighing_ = collector.M(n);
+  add_rotor(*structure_, made->mesh, dofs, collector);
+  const int n = dofs.full_size;
+  made->weighing = collector.M(n);
 
-  dofs_.T = freedoms_left(*structure_, mesh_, dofs_);
+  dofs.T = freedoms_left(*structure_, made->mesh, dofs);
   for (const auto& [kind, list] : structure_->connections()) {
     for (const Connection& c : list) {
       if (whirl::depends_on_speed(c.coefficients)) {
-        tables_depend_on_speed_ = true;
-        if (whirl::depends_on_whirl(c.coefficients)) depends_on_whirl_ = true;
+        made->tables_depend_on_speed = true;
+        if (whirl::depends_on_whirl(c.coefficients)) made->depends_on_whirl = true;
       } else {
         collector.add(matrices(coefficients(c.coefficients, 0.0)),
-                      indices(dofs_, point(c.from), point(c.to)));
+                      indices(dofs, point(c.from), point(c.to)));
       }
     }
   }
-  fixed_ = {collector.M(n), collector.C(n), collector.K(n), {collector.spin(n)}};
-  if (!structure_->linearized.empty()) tables_depend_on_speed_ = true;
+  made->fixed = {collector.M(n), collector.C(n), collector.K(n), {collector.spin(n)}};
+  if (!structure_->linearized.empty()) made->tables_depend_on_speed = true;
   if (!structure_->modal_damping.ratios.empty()) {
     // modes at rest, where films carry nothing; with the added mass of tables
     Structure without_films = *structure_;
@@ -263,7 +266,7 @@ Assembler::Assembler(Structure structure)
     const auto whole =
         std::exchange(structure_, std::make_shared<const Structure>(std::move(without_films)));
     const auto at_rest = [&] { return at(0.0); };
-    modal_ = modal_damping_matrix(structure_->modal_damping, at_rest, full(0.0, 0.0).M);
+    made->modal = modal_damping_matrix(structure_->modal_damping, at_rest, full(0.0, 0.0).M);
     structure_ = whole;
   }
 }
@@ -278,7 +281,7 @@ std::optional<Assembler> Assembler::with_loads_of(const Structure& structure) co
 
 Assembler::FullEquations Assembler::full(double Omega, double omega) const {
   interruption_point();
-  FullEquations f = fixed_;
+  FullEquations f = assembled_->fixed;
   f.Omega = Omega;
   Collector collector;
   bool any = false;
@@ -287,64 +290,64 @@ Assembler::FullEquations Assembler::full(double Omega, double omega) const {
       if (!whirl::depends_on_speed(c.coefficients)) continue;
       any = true;
       collector.add(matrices(coefficients(c.coefficients, Omega, omega)),
-                    indices(dofs_, point(c.from), point(c.to)));
+                    indices(dofs(), point(c.from), point(c.to)));
     }
   }
   if (any) {
-    f.M += collector.M(dofs_.full_size);
-    f.K += collector.K(dofs_.full_size);
-    f.C += collector.C(dofs_.full_size);
+    f.M += collector.M(dofs().full_size);
+    f.K += collector.K(dofs().full_size);
+    f.C += collector.C(dofs().full_size);
   }
   const Rayleigh& r = structure_->damping;
   if (r.mass != 0.0) f.C += r.mass * f.M;
   if (r.stiffness != 0.0) f.C += r.stiffness * symmetric_part(f.K);
-  if (modal_.nonZeros() > 0) f.C += modal_;
+  if (assembled_->modal.nonZeros() > 0) f.C += assembled_->modal;
   if (structure_->linearized.empty()) return f;
   Collector linearized;  // damping of the rotor is not in proportion to their stiffness
   for (const LinearizedConnection& c : structure_->linearized) {
-    linearized.add(matrices(c.at(Omega, omega)), indices(dofs_, point(c.from), point(c.to)));
+    linearized.add(matrices(c.at(Omega, omega)), indices(dofs(), point(c.from), point(c.to)));
   }
-  f.K += linearized.K(dofs_.full_size);
-  f.C += linearized.C(dofs_.full_size);
+  f.K += linearized.K(dofs().full_size);
+  f.C += linearized.C(dofs().full_size);
   return f;
 }
 
 System Assembler::system_of(const FullEquations& f, const Sparse& T) const {
-  System s{f.mapped([&](const Sparse& A) { return project(T, A); }), dofs_};
+  System s{f.mapped([&](const Sparse& A) { return project(T, A); }), dofs()};
   s.dofs.T = T;
   return s;
 }
 
 System Assembler::uncondensed(double Omega, double omega) const {
-  return system_of(full(Omega, omega), dofs_.T);
+  return system_of(full(Omega, omega), dofs().T);
 }
 
 System Assembler::at(double Omega, double omega) const {
   const FullEquations f = full(Omega, omega);
-  System whole = system_of(f, dofs_.T);
+  System whole = system_of(f, dofs().T);
   const std::vector<int> condensed = condensable(whole, touched_by_whirl());
   if (condensed.empty()) return whole;
   // condensation follows the conservative part of K: rotating damping vanishes with it
-  System s = system_of(f, Sparse(dofs_.T * condensation(whole.K, condensed)));
+  System s = system_of(f, Sparse(dofs().T * condensation(whole.K, condensed)));
   s.dofs.condensed = static_cast<int>(condensed.size());
   return s;
 }
 
 /// Coordinates on which coefficients act that depend on the frequency; empty: none.
 std::vector<bool> Assembler::touched_by_whirl() const {
-  if (!depends_on_whirl_) return {};
-  std::vector<bool> is_end(static_cast<std::size_t>(dofs_.full_size), false);
+  if (!depends_on_whirl()) return {};
+  std::vector<bool> is_end(static_cast<std::size_t>(dofs().full_size), false);
   for (const auto& [kind, list] : structure_->connections()) {
     for (const Connection& c : list) {
       if (!whirl::depends_on_whirl(c.coefficients)) continue;
-      for (const int i : indices(dofs_, point(c.from), point(c.to))) {
+      for (const int i : indices(dofs(), point(c.from), point(c.to))) {
         if (i >= 0) is_end[static_cast<std::size_t>(i)] = true;
       }
     }
   }
-  std::vector<bool> touched(static_cast<std::size_t>(dofs_.T.cols()), false);
-  for (int j = 0; j < dofs_.T.outerSize(); ++j) {
-    for (Sparse::InnerIterator it(dofs_.T, j); it; ++it) {
+  std::vector<bool> touched(static_cast<std::size_t>(dofs().T.cols()), false);
+  for (int j = 0; j < dofs().T.outerSize(); ++j) {
+    for (Sparse::InnerIterator it(dofs().T, j); it; ++it) {
       if (is_end[static_cast<std::size_t>(it.row())]) touched[static_cast<std::size_t>(j)] = true;
     }
   }
@@ -356,38 +359,38 @@ Vec Assembler::gravity_load() const {
 }
 
 Vec Assembler::inertia_load(const Vec2& a) const {
-  Vec acceleration = Vec::Zero(dofs_.full_size);
-  for (const Point& p : dofs_.points()) {
-    for (const int component : {X, Y}) acceleration(dofs_.full_index(p, component)) = a(component);
+  Vec acceleration = Vec::Zero(dofs().full_size);
+  for (const Point& p : dofs().points()) {
+    for (const int component : {X, Y}) acceleration(dofs().full_index(p, component)) = a(component);
   }
-  return weighing_ * acceleration;
+  return assembled_->weighing * acceleration;
 }
 
 CVec Assembler::unbalance() const {
-  CVec u = CVec::Zero(dofs_.full_size);
+  CVec u = CVec::Zero(dofs().full_size);
   for (const Unbalance& unbalance : structure_->unbalances) {
     const Point p = point(unbalance.at);
     const Complex amplitude = std::polar(unbalance.moment, unbalance.phase);
-    u(dofs_.full_index(p, X)) += amplitude;
-    u(dofs_.full_index(p, Y)) += Complex(0.0, -1.0) * amplitude;
+    u(dofs().full_index(p, X)) += amplitude;
+    u(dofs().full_index(p, Y)) += Complex(0.0, -1.0) * amplitude;
   }
   return u;
 }
 
 CVec Assembler::bow() const {
-  CVec force = CVec::Zero(dofs_.full_size);
-  const std::vector<BowState> states = bow_states(structure_->bow, mesh_.z);
+  CVec force = CVec::Zero(dofs().full_size);
+  const std::vector<BowState> states = bow_states(structure_->bow, mesh().z);
   if (states.empty()) return force;
   // x + i y = r turns with the shaft: u_x = r, u_y = -i r, and theta_y = x', theta_x = -y'
-  CVec displacement = CVec::Zero(dofs_.full_size);
-  for (int i = 0; i < mesh_.nodes(); ++i) {
+  CVec displacement = CVec::Zero(dofs().full_size);
+  for (int i = 0; i < mesh().nodes(); ++i) {
     const auto& [r, slope] = states[static_cast<std::size_t>(i)];
     displacement.segment<4>(4 * i) << r, Complex(0.0, -1.0) * r, Complex(0.0, 1.0) * slope, slope;
   }
-  for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
-    const std::vector<int> index = indices(dofs_, {Point::Kind::node, mesh_.elements[e].left},
-                                           {Point::Kind::node, mesh_.elements[e].right});
-    for (Beam beam : beams_along(e, *structure_, mesh_)) {
+  for (std::size_t e = 0; e < mesh().elements.size(); ++e) {
+    const std::vector<int> index = indices(dofs(), {Point::Kind::node, mesh().elements[e].left},
+                                           {Point::Kind::node, mesh().elements[e].right});
+    for (Beam beam : beams_along(e, *structure_, mesh())) {
       beam.axial_force = beam.torque = 0.0;  // these act along the true line, not the unbent one
       const Mat K = matrices(beam).K.topLeftCorner<8, 8>();
       force(index) += K * displacement(index);
@@ -398,7 +401,7 @@ CVec Assembler::bow() const {
 
 Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {
   const FullEquations f = full(Omega, 0.0);
-  const Vec displacement = dofs_.T * q;
+  const Vec displacement = dofs().T * q;
   return f.K * displacement + Omega * (f.H() * displacement) - full_load;
 }
 

@@ -32,17 +32,19 @@ class Assembler {
   std::optional<Assembler> with_loads_of(const Structure& structure) const;
 
   const Structure& structure() const { return *structure_; }
-  const Mesh& mesh() const { return mesh_; }
+  const Mesh& mesh() const { return assembled_->mesh; }
   /// Of the coordinates that supports leave, nothing condensed.
-  const DofMap& dofs() const { return dofs_; }
-  Point point(const Station& station) const { return resolve(station, *structure_, mesh_); }
+  const DofMap& dofs() const { return assembled_->dofs; }
+  Point point(const Station& station) const { return resolve(station, *structure_, mesh()); }
 
   /// Whether M, C or K change with speed (tables, films).
-  bool tables_depend_on_speed() const { return tables_depend_on_speed_; }
+  bool tables_depend_on_speed() const { return assembled_->tables_depend_on_speed; }
   /// Whether the equations do beyond Omega G, by these or by damping that rotates.
-  bool depends_on_speed() const { return tables_depend_on_speed_ || fixed_.circulates(); }
+  bool depends_on_speed() const {
+    return tables_depend_on_speed() || assembled_->fixed.circulates();
+  }
   /// Whether they change with the frequency of a motion, too.
-  bool depends_on_whirl() const { return depends_on_whirl_; }
+  bool depends_on_whirl() const { return assembled_->depends_on_whirl; }
 
   /// Matrices at a speed [rad/s] for motions of a frequency omega >= 0 [rad/s], dofs without
   /// inertia condensed.
@@ -86,18 +88,22 @@ class Assembler {
 
  private:
   using FullEquations = EquationsOfMotion<Sparse>;  // of the full vector
+  /// What loads do not change: structures that differ in loads alone share it.
+  struct Assembled {
+    Mesh mesh;
+    DofMap dofs;          // supports eliminated, nothing condensed
+    FullEquations fixed;  // all that does not depend on speed
+    Sparse modal;         // damping of modes at rest; empty: none
+    Sparse weighing;      // inertia that has weight, of the full vector
+    bool tables_depend_on_speed = false;
+    bool depends_on_whirl = false;
+  };
   FullEquations full(double Omega, double omega) const;
   std::vector<bool> touched_by_whirl() const;
   System system_of(const FullEquations& f, const Sparse& T) const;
 
   std::shared_ptr<const Structure> structure_;
-  Mesh mesh_;
-  DofMap dofs_;          // supports eliminated, nothing condensed
-  FullEquations fixed_;  // all that does not depend on speed
-  Sparse modal_;         // damping of modes at rest; empty: none
-  Sparse weighing_;      // inertia that has weight, of the full vector
-  bool tables_depend_on_speed_ = false;
-  bool depends_on_whirl_ = false;
+  std::shared_ptr<const Assembled> assembled_;
 };
 
 /// Matrices of a structure at a speed [rad/s]; see Assembler::at.

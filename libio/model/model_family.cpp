@@ -119,9 +119,7 @@ std::shared_ptr<const Scene> ModelFamily::scene(const Model& member) const {
     on = state_->foundation;
   }
   if (on) {
-    if (auto beside = scene_beside(*on, member)) {
-      return std::make_shared<const Scene>(*std::move(beside));
-    }
+    if (auto beside = scene_beside(*on, member)) return beside;
   }
   auto assembler = on ? on->assembler.with_loads_of(member.structure) : std::nullopt;
   on = made_on(assembler ? *std::move(assembler) : Assembler(member.structure));
