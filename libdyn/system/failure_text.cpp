@@ -54,7 +54,7 @@ std::string left_bearing_text(const ReducedFilm& film) {
   return fmt::format("the journal of oil film \"{}\" is not inside its bearing", film.name);
 }
 
-bool is_boundless(const ContactSystem& system, const Vec& y) {
+bool is_boundless(const ContactSystem& system, const Eigen::Ref<const Vec>& y) {
   const StateLayout layout = system.layout();
   const auto sizes = layout.eta(y).array() / layout.eta(system.state_scale()).array();
   return !(sizes.abs() < boundless).all();  // maxCoeff() may pass over NaN

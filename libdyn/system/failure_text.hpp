@@ -15,7 +15,7 @@ std::string failure_text(const ContactSystem& system, const MotionState& state,
 std::string left_bearing_text(const ReducedFilm& film);
 
 /// Whether a state is beyond all bounds, or no number.
-bool is_boundless(const ContactSystem& system, const Vec& y);
+bool is_boundless(const ContactSystem& system, const Eigen::Ref<const Vec>& y);
 
 /// Sets outcome and failure of an integration that failed: left_bearing where a journal has left
 /// its bearing, else as given.

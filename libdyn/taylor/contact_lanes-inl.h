@@ -222,8 +222,9 @@ struct ContactLanes {
     if (k == 0) s[0] = s[0] - plane_at;
   }
 
-  /// The same of a wall, for any k.
-  HWY_ATTR void wall_geometry(const P* x, int k) {
+  /// The same of a wall, for any k. Out of line: inside the loop that has this call its tapes make
+  /// films in lanes 6 % slower.
+  HWY_NOINLINE HWY_ATTR void wall_geometry(const P* x, int k) {
     P xk, yk;
     displacement(x, xk, yk);
     if (k == 0) {

@@ -191,84 +191,91 @@ class Rk4Lanes {
     for (const auto& film : films_) film->add_force(y, rate, a, thinnest_);
   }
 
+  /// Where the rotor is beside the surface of a contact; d and r are those of ContactLanes.
+  struct Place {
+    P dx, dy;                  // d; at first the displacement
+    P depth, inverse_r{1.0};   // inverse_r: 1 / r
+    P tip_x{0.0}, tip_y{0.0};  // of a blade, from the disk's center
+    Mask beyond;               // lanes in which it is beyond the surface
+  };
+
   /// Adds the force of a contact where it touches and pushes.
   HWY_ATTR void push(const ContactLanes<P>& c, const P* y, P* a) const {
-    if (c.rows.is_plane) return push_by_plane(c, y, a);
-    if (c.wall) return push_by_wall(c, y, a);
-    P dx, dy, vx, vy;
-    c.displacement(y, dx, dy);
-    dx = dx - c.offset_x;
-    dy = dy - c.offset_y;
-    P tip_x(0.0), tip_y(0.0);  // of a blade, from the disk's center
-    if (c.disk) {
-      const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
-      tip_x = c.disk->radius * fnma(sine, c.blade_sine, cosine * c.blade_cosine);
-      tip_y = c.disk->radius * fma(cosine, c.blade_sine, sine * c.blade_cosine);
-      dx = dx + tip_x;
-      dy = dy + tip_y;
-    }
-    const P s = fma(dx, dx, dy * dy);
-    const Mask beyond = less(c.clearance2, s);
-    if (!any(s, beyond)) return;
+    Place at;
+    c.displacement(y, at.dx, at.dy);
+    const bool any_beyond = c.rows.is_plane ? find_plane(c, at)
+                            : c.wall        ? find_wall(c, at)
+                                            : find_circle(c, at);
+    if (!any_beyond) return;
+    P vx, vy;
     c.displacement(layout().rates_at(y), vx, vy);
     if (c.disk) {
       const P spin = c.disk->turns * c.disk->rate;
-      vx = fnma(spin, tip_y, vx);
-      vy = fma(spin, tip_x, vy);
+      vx = fnma(spin, at.tip_y, vx);
+      vy = fma(spin, at.tip_x, vy);
     }
-    const P r = sqrt(select(beyond, s, c.clearance2)), inverse_r = P(1.0) / r;
-    const P rate = fma(dx, vx, dy * vy) * inverse_r;
+    const P rate = fma(at.dx, vx, at.dy * vy) * at.inverse_r, nothing(0.0);
     const P N = with_alternative(
-        c.law, [&](const auto& law) HWY_ATTR { return law.normal(r - c.clearance, rate); });
-    const P q = select(both(beyond, less(P(0.0), N)), N * inverse_r, P(0.0));
-    push_by(c, q, dx, dy, inverse_r, vx, vy, y, a);
+        c.law, [&](const auto& law) HWY_ATTR { return law.normal(at.depth, rate); });
+    const P q = select(both(at.beyond, less(nothing, N)), N * at.inverse_r, nothing);
+    push_by(c, q, at, vx, vy, y, a);
+  }
+
+  /// From the displacement to the place; whether a lane is beyond the surface.
+  HWY_ATTR inline bool find_circle(const ContactLanes<P>& c, Place& at) const {
+    at.dx = at.dx - c.offset_x;
+    at.dy = at.dy - c.offset_y;
+    if (c.disk) {
+      const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
+      at.tip_x = c.disk->radius * fnma(sine, c.blade_sine, cosine * c.blade_cosine);
+      at.tip_y = c.disk->radius * fma(cosine, c.blade_sine, sine * c.blade_cosine);
+      at.dx = at.dx + at.tip_x;
+      at.dy = at.dy + at.tip_y;
+    }
+    const P s = fma(at.dx, at.dx, at.dy * at.dy);
+    at.beyond = less(c.clearance2, s);
+    if (!any(s, at.beyond)) return false;
+    const P r = sqrt(select(at.beyond, s, c.clearance2));
+    at.inverse_r = P(1.0) / r;
+    at.depth = r - c.clearance;
+    return true;
   }
 
   /// The same of a plane: d is its normal, r is one.
-  HWY_ATTR void push_by_plane(const ContactLanes<P>& c, const P* y, P* a) const {
-    P x, yy, vx, vy;
-    c.displacement(y, x, yy);
-    const P &nx = c.dx[0], &ny = c.dy[0], depth = fma(nx, x, ny * yy) - c.plane_at, nothing(0.0);
-    const Mask beyond = less(nothing, depth);
-    if (!any(depth, beyond)) return;
-    c.displacement(layout().rates_at(y), vx, vy);
-    const P rate = fma(nx, vx, ny * vy);
-    const P N = with_alternative(c.law, [&](const auto& law) HWY_ATTR {
-      return law.normal(select(beyond, depth, nothing), rate);
-    });
-    const P q = select(both(beyond, less(nothing, N)), N, nothing);
-    push_by(c, q, nx, ny, P(1.0), vx, vy, y, a);
+  HWY_ATTR inline bool find_plane(const ContactLanes<P>& c, Place& at) const {
+    const P depth = fma(c.dx[0], at.dx, c.dy[0] * at.dy) - c.plane_at, nothing(0.0);
+    at.dx = c.dx[0];
+    at.dy = c.dy[0];
+    at.beyond = less(nothing, depth);
+    at.depth = select(at.beyond, depth, nothing);
+    return any(depth, at.beyond);
   }
 
   /// The same of a wall.
-  HWY_ATTR void push_by_wall(const ContactLanes<P>& c, const P* y, P* a) const {
-    P x, yy, vx, vy;
-    c.displacement(y, x, yy);
-    x = x - c.offset_x;
-    yy = yy - c.offset_y;
+  HWY_ATTR bool find_wall(const ContactLanes<P>& c, Place& at) const {
     const WallLanes<P>& wall = *c.wall;
-    const P square = wall.square_of(x, yy), nothing(0.0);
-    const Mask beyond = less(P(1.0), square);
-    if (!any(square, beyond)) return;
+    const P x = at.dx - c.offset_x, y = at.dy - c.offset_y;
+    const P square = wall.square_of(x, y);
+    at.beyond = less(P(1.0), square);
+    if (!any(square, at.beyond)) return false;
     const WallGap<P> gap =
-        wall.at(select(beyond, x, wall.harmless_x), select(beyond, yy, wall.harmless_y));
-    c.displacement(layout().rates_at(y), vx, vy);
-    const P rate = fma(gap.nx, vx, gap.ny * vy);
-    const P N = with_alternative(
-        c.law, [&](const auto& law) HWY_ATTR { return law.normal(max(gap.depth, nothing), rate); });
-    const P q = select(both(beyond, less(nothing, N)), N, nothing);
-    push_by(c, q, gap.nx, gap.ny, P(1.0), vx, vy, y, a);
+        wall.at(select(at.beyond, x, wall.harmless_x), select(at.beyond, y, wall.harmless_y));
+    at.dx = gap.nx;
+    at.dy = gap.ny;
+    at.depth = max(gap.depth, P(0.0));
+    return true;
   }
 
   /// Adds -(q d + tau rot d), with the velocity (vx, vy) of the place.
-  HWY_ATTR inline void push_by(const ContactLanes<P>& c, const P& q, const P& dx, const P& dy,
-                               const P& inverse_r, P vx, P vy, const P* y, P* a) const {
+  HWY_ATTR inline void push_by(const ContactLanes<P>& c, const P& q, const Place& at, P vx, P vy,
+                               const P* y, P* a) const {
+    const P &dx = at.dx, &dy = at.dy;
     if (!c.rows.has_friction) {
       c.push(a, q * dx, q * dy);
       return;
     }
     if (c.rub) c.rub->lateral(layout().rates_at(y), vx, vy);
-    const P slip = fma(fma(dx, vy, -(dy * vx)), inverse_r, c.rim);
+    const P slip = fma(fma(dx, vy, -(dy * vx)), at.inverse_r, c.rim);
     P share = select(both(mask_of<P>(c.exact), less(slip, P(0.0))), P(-1.0), P(1.0));
     if (c.smooth != 0) share = select(mask_of<P>(c.smooth), tanh(slip * c.inverse_width), share);
     const P tau = c.mu * share * q;
