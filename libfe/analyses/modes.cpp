@@ -23,13 +23,11 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int dense_after = 160;         ///< dofs; where Arnoldi failed, dense ones are faster
+constexpr int dense_after = 160;         ///< dofs: all modes at once are found faster than by discs
 constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones have no sense
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
 constexpr double rigid_share = 1e-5;     ///< of the first flexible omega^2: does not deform
 constexpr double rigid_zero = 1e-5;      ///< of the first flexible omega: a rigid body's zero
-constexpr int most_others = 40;          ///< modes that do not oscillate, beyond those expected
-constexpr double cut_pair = 1e-6;        ///< of the farthest eigenvalue: its twin may be missing
 constexpr double off_axis = 0.05;        ///< Re over Im of a center for modes near a frequency
 constexpr double rough = 1e-3;           ///< relative error of an eigenvalue that can be refined
 constexpr double fine = 1e-5;            ///< the same among others that are as near
@@ -156,52 +154,21 @@ double shift_for(const FreeBody& body) {
   return body.first_flexible > 0.0 ? -0.3 * body.first_flexible : -1.0;
 }
 
-/// What is known of a system before its modes are, and seen of it so far.
+/// What is known of a system before its modes are.
 struct Knowledge {
   FreeBody body;
   EnergyBounds bounds;
-  std::optional<QuadraticSolver> arnoldi;  ///< about a real shift; none once it has failed
-  int others = 0;  ///< modes that do not oscillate, to expect among the lowest
 };
-
-/// The lowest modes by Arnoldi about a real shift, or nothing: if it does not converge, if most of
-/// what it finds does not oscillate, or if a slow, heavily damped mode may be farther away.
-std::optional<Modes> arnoldi_modes(const System& system, Knowledge& known, int count) {
-  const int patience = known.others + count + most_others;
-  while (known.others <= patience) {
-    const int pairs = count + known.others;
-    if (2 * pairs >= system.size()) return std::nullopt;
-    QuadraticModes found;
-    try {
-      found = known.arnoldi->lowest(system.D(), pairs);
-    } catch (const NumericalError&) {
-      return std::nullopt;
-    }
-    const double shift = shift_for(known.body);
-    const double radius = (found.lambda.array() - shift).abs().maxCoeff() * (1.0 - cut_pair);
-    Modes modes = sorted(std::move(found), system, known.body, count);
-    const int missing = count - static_cast<int>(modes.oscillatory.size());
-    if (missing <= 0) {
-      const double top = count > 0 ? modes.oscillatory.back().frequency() : 0.0;
-      if (!covers_sector(shift, radius, top,
-                         {.slope = 1.0 / hardly_oscillating, .bounds = known.bounds})) {
-        return std::nullopt;
-      }
-      return modes;
-    }
-    known.others += missing;
-  }
-  return std::nullopt;
-}
 
 /// The lowest modes by discs that cover where they can be, or nothing: if there are too many.
 std::optional<Modes> searched_modes(const System& system, const Knowledge& known, int count) {
   int rigid = 0;
   while (2 * (count + rigid) < system.size()) {
-    const FrequencySearch search{.count = count + rigid,
-                                 .slope = 1.0 / hardly_oscillating,
-                                 .center = shift_for(known.body),
-                                 .bounds = known.bounds};
+    FrequencySearch search{.count = count + rigid,
+                           .slope = 1.0 / hardly_oscillating,
+                           .center = shift_for(known.body),
+                           .bounds = known.bounds};
+    if (system.size() <= dense_after) search.most_discs = 1;
     QuadraticModes found;
     try {
       found = lowest_frequencies(system.M, system.D(), system.stiffness(), search);
@@ -218,34 +185,16 @@ std::optional<Modes> searched_modes(const System& system, const Knowledge& known
 }
 
 /// The lowest modes of a large system.
-Modes sparse_modes(const System& system, Knowledge& known, int count) {
-  if (known.arnoldi) {
-    if (std::optional<Modes> modes = arnoldi_modes(system, known, count)) return *std::move(modes);
-    known.arnoldi.reset();
-  }
-  if (system.size() > dense_after) {
-    if (std::optional<Modes> modes = searched_modes(system, known, count)) return *std::move(modes);
-  }
+Modes sparse_modes(const System& system, const Knowledge& known, int count) {
+  if (std::optional<Modes> modes = searched_modes(system, known, count)) return *std::move(modes);
   // all at once takes longer for large systems, but does not depend on where modes are
   return sorted(
       dense_quadratic_modes(system.M, system.D(), system.stiffness(), shift_for(known.body)),
       system, known.body, count);
 }
 
-/// How many modes beside the oscillatory ones to expect among the lowest of an unknown system.
-int usual_others(const FreeBody& body) {
-  return body.is_free ? 8 : 4;
-}
-
 Knowledge knowledge_of(const System& system) {
-  Knowledge known{.body = free_body(system),
-                  .bounds = energy_bounds(system.D(), system.stiffness())};
-  known.others = usual_others(known.body);
-  try {
-    known.arnoldi.emplace(system.M, system.stiffness(), shift_for(known.body));
-  } catch (const NumericalError&) {  // K has no inverse: other shifts do without
-  }
-  return known;
+  return {.body = free_body(system), .bounds = energy_bounds(system.D(), system.stiffness())};
 }
 
 }  // namespace
@@ -349,8 +298,7 @@ std::vector<Mode> reduced_modes(const ReducedSystem& reduced, int count) {
 
 Modes complex_modes(const System& system, int count) {
   if (system.size() >= dense_below) {
-    Knowledge known = knowledge_of(system);
-    return sparse_modes(system, known, count);
+    return sparse_modes(system, knowledge_of(system), count);
   }
   const FreeBody body = free_body(system);
   return sorted(dense_quadratic_modes(system.M, system.D(), system.stiffness(), shift_for(body)),

@@ -86,12 +86,13 @@ struct Modes {
 
 /// Complex modes of a system at its speed.
 ///
-/// Below 150 states all are found densely; above, the lowest of those that oscillate, by Arnoldi
-/// about zero where that and bounds of the energies prove that none is missing, else by discs that
-/// cover the plane from below; overdamped ones are then those nearest to zero. Rigid-body motions
-/// (of free rotors, including the precession of a free spinning rotor) are told apart by their
-/// strain energy and listed by themselves, as are overdamped motions: real eigenvalues, and pairs
-/// with a damping ratio above 0.98, which only gyroscopics keep from being real.
+/// Below 150 states all are found densely; above, the lowest of those that oscillate, by a disc
+/// about zero (DiscSolver) that grows until bounds of the energies prove that none is missing, and
+/// where that is too far by discs that cover the plane from below; overdamped ones are then those
+/// nearest to zero. Rigid-body motions (of free rotors, including the precession of a free spinning
+/// rotor) are told apart by their strain energy and listed by themselves, as are overdamped
+/// motions: real eigenvalues, and pairs with a damping ratio above 0.98, which only gyroscopics
+/// keep from being real.
 ///
 /// @param count  oscillatory modes wanted; fewer come back if there are fewer
 /// @throws NumericalError  if an eigensolver fails

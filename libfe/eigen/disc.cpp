@@ -6,109 +6,172 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "libbase/numerics/dense_complex.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
+#include "libbase/system/interruption.hpp"
 #include "libfe/eigen/pencil.hpp"
+#include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {
 
 namespace {
 
-constexpr int largest_basis = 100;  ///< vectors; beyond, more discs cost less than larger ones
-constexpr int first_look = 18;      ///< vectors before eigenvalues are computed first
-constexpr double growth = 1.4;      ///< of the basis from look to look
-constexpr int starts = 2;           ///< vectors at the beginning: isotropic rotors have pairs
-constexpr int rounds = 5;           ///< powers of the inverse a fresh vector gets to show something
-constexpr double converged = 1e-11;  ///< residual over the size of an eigenvalue of the inverse
+constexpr int largest_basis = 100;       ///< vectors; beyond, more discs cost less than larger ones
+constexpr int first_look = 18;           ///< vectors before eigenvalues are computed first
+constexpr double growth = 1.25;          ///< of the basis from look to look, at most
+constexpr double margin_of_size = 1.05;  ///< of the basis that a radius is expected to take
+constexpr int starts = 2;                ///< vectors at the beginning: isotropic rotors have pairs
+constexpr int rounds = 5;  ///< powers of the inverse a fresh vector gets to show something
+constexpr double converged = 1e-10;  ///< residual over the size of an eigenvalue of the inverse
 constexpr double exhausted = 1e-13;  ///< of its length: what is left of a vector inside the basis
-constexpr double rim = 1e-6;         ///< relative distance in which a disc does not end
-constexpr double real_axis = 1e-10;  ///< |Im| of an eigenvalue that is real, over its size
+constexpr double least_energy = 1e-10;  ///< of a sum of its terms: below minus this it is negative
+constexpr double no_energy = 1e-14;     ///< the same where it is none
+constexpr double rim = 1e-6;            ///< relative distance in which a disc does not end
+constexpr double real_axis = 1e-10;     ///< |Im| of an eigenvalue that is real, over its size
 
-/// (A - s I)^-1 of the state (q, p = q' / scale) for a complex s.
+template <class Scalar>
+using VecOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+template <class Scalar>
+using MatOf = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// (A - s I)^-1 of states (q, p = q' / scale).
+template <class Scalar>
 struct ShiftedInverse {
-  const CSparse &M, &D;
-  const ComplexSparseLu& factor;
-  Complex s;
+  const Sparse &M, &D;
+  std::function<MatOf<Scalar>(const MatOf<Scalar>&)> solve;  ///< (s^2 M + s D + K)^-1
+  Scalar s;
   double scale;
 
-  CVec operator()(const Eigen::Ref<const CVec>& in) const {
+  MatOf<Scalar> operator()(const Eigen::Ref<const MatOf<Scalar>>& in) const {
     const auto n = M.rows();
-    const auto q = in.head(n), p = in.tail(n);
-    CVec load = M * CVec(scale * p + s * q);
+    const auto q = in.topRows(n), p = in.bottomRows(n);
+    MatOf<Scalar> load = M * MatOf<Scalar>(scale * p + s * q);
     load += D * q;
-    const CVec x = factor.solve(load);
-    CVec out(2 * n);
-    out.head(n) = -x;
-    out.tail(n) = (q - s * x) / scale;
+    const MatOf<Scalar> x = solve(load);
+    MatOf<Scalar> out(2 * n, in.cols());
+    out.topRows(n) = -x;
+    out.bottomRows(n) = (q - s * x) / scale;
     return out;
   }
 };
 
+/// The inner product of states: the energy q^T K q + q'^T M q', in which an operator without
+/// damping is normal, so that Ritz values lie among eigenvalues; without matrices the Euclidean
+/// one.
+struct Energy {
+  Sparse K, M;  ///< symmetric; K positive definite; M in units of p
+
+  bool is_euclidean() const { return K.rows() == 0; }
+  template <class Scalar>
+  MatOf<Scalar> weigh(const MatOf<Scalar>& states) const {
+    MatOf<Scalar> result(states.rows(), states.cols());
+    result.topRows(K.rows()).noalias() = K * states.topRows(K.rows());
+    result.bottomRows(K.rows()).noalias() = M * states.bottomRows(K.rows());
+    return result;
+  }
+};
+
 /// An orthonormal basis that grows by the images of its own vectors.
+template <class Scalar>
 class KrylovBasis {
  public:
-  KrylovBasis(const ShiftedInverse& op, Eigen::Index states)
+  KrylovBasis(const ShiftedInverse<Scalar>& op, const Energy& energy, Eigen::Index states)
       : op_(op),
+        energy_(energy),
         most_(std::min<Eigen::Index>(largest_basis, states)),
         vectors_(states, most_ + starts + 8),
-        projected_(CMat::Zero(vectors_.cols(), most_)) {}
+        weighed_(energy.is_euclidean() ? 0 : states, vectors_.cols()),
+        projected_(MatOf<Scalar>::Zero(vectors_.cols(), most_)) {}
 
   /// Number of vectors whose images are known.
   Eigen::Index size() const { return done_; }
   bool is_full() const { return done_ >= most_; }
+  /// Whether all energies are those of a positive inertia: else nothing is known.
+  bool is_sound() const { return is_sound_; }
+  double effort() const { return static_cast<double>(done_) / static_cast<double>(most_); }
   /// Whether nothing leads out of it.
   bool is_invariant() const { return done_ == columns_; }
 
   /// Adds a random direction; false if there is none left.
   bool add_fresh() {
     if (columns_ >= vectors_.rows() || columns_ >= vectors_.cols()) return false;
-    CVec fresh(vectors_.rows());
+    MatOf<Scalar> fresh(vectors_.rows(), 1);
     std::normal_distribution<double> normal;
-    for (Complex& x : fresh) x = {normal(random_), normal(random_)};
+    for (Eigen::Index i = 0; i < fresh.size(); ++i) {
+      if constexpr (std::is_same_v<Scalar, Complex>) {
+        fresh(i) = {normal(random_), normal(random_)};
+      } else {
+        fresh(i) = normal(random_);
+      }
+    }
     fresh = op_(fresh);  // what is infinite is no part of it
-    return append(fresh, nullptr);
+    return append(std::move(fresh), nullptr);
   }
 
   /// Adds the image of the next vector.
   void advance() {
-    CVec image = op_(vectors_.col(done_));
-    ++done_;
-    append(image, &projected_);
+    MatOf<Scalar> image = op_(vectors_.col(done_++));
+    append(std::move(image), &projected_);
+  }
+  /// Adds the image of the newest vector, which leaves others waiting.
+  void advance_newest() {
+    const Eigen::Index newest = columns_ - 1;
+    vectors_.col(done_).swap(vectors_.col(newest));
+    if (!energy_.is_euclidean()) weighed_.col(done_).swap(weighed_.col(newest));
+    projected_.row(done_).swap(projected_.row(newest));
+    advance();
   }
 
   /// Eigenvalues and vectors of the projection; nothing if they cannot be found.
   std::optional<GeneralModes> ritz() const {
-    return general_modes(CMat(projected_.topLeftCorner(done_, done_)));
+    return general_modes(MatOf<Scalar>(projected_.topLeftCorner(done_, done_)));
   }
   /// How far A x is from nu x for a vector y of the projection, x = V y.
   double residual(const CVec& y) const {
     return (projected_.block(done_, 0, columns_ - done_, done_) * y).norm();
   }
-  CVec vector(const CVec& y) const { return vectors_.leftCols(done_) * y; }
+  /// The displacements of such a vector.
+  CVec displacements(const CVec& y) const {
+    return vectors_.topLeftCorner(vectors_.rows() / 2, done_) * y;
+  }
 
  private:
   /// Appends the part of v that is new; the other parts go into a column of `to`.
-  bool append(CVec& v, CMat* to) {
+  bool append(MatOf<Scalar> v, MatOf<Scalar>* to) {
     const double before = v.norm();
-    const auto basis = vectors_.leftCols(columns_);
     for (int twice = 0; twice < 2 && columns_ > 0; ++twice) {
-      const CVec parts = basis.adjoint() * v;
-      v -= basis * parts;
+      const VecOf<Scalar> parts = duals().leftCols(columns_).adjoint() * v.col(0);
+      v.col(0).noalias() -= vectors_.leftCols(columns_) * parts;
       if (to) to->col(done_ - 1).head(columns_) += parts;
     }
-    const double left = v.norm();
+    double left = v.norm();
     if (!(left > exhausted * before) || columns_ >= vectors_.cols()) return false;
+    if (!energy_.is_euclidean()) {
+      const MatOf<Scalar> weighed = energy_.weigh(v);
+      const double square = std::real(weighed.col(0).dot(v.col(0)));
+      const double size = weighed.cwiseProduct(v).cwiseAbs().sum();
+      is_sound_ = is_sound_ && square > -least_energy * size;
+      if (!(square > no_energy * size)) return false;  // motion of what has no inertia
+      left = std::sqrt(square);
+      weighed_.col(columns_) = weighed / left;
+    }
     if (to) (*to)(columns_, done_ - 1) = left;
     vectors_.col(columns_++) = v / left;
     return true;
   }
+  /// What makes coordinates of a vector by its products with them.
+  const MatOf<Scalar>& duals() const { return energy_.is_euclidean() ? vectors_ : weighed_; }
 
-  const ShiftedInverse& op_;
+  const ShiftedInverse<Scalar>& op_;
+  const Energy& energy_;
   Eigen::Index most_;
-  CMat vectors_, projected_;
+  MatOf<Scalar> vectors_, weighed_, projected_;
   Eigen::Index done_ = 0, columns_ = 0;
+  bool is_sound_ = true;
   std::mt19937 random_{1};
 };
 
@@ -125,9 +188,10 @@ struct Look {
   }
 };
 
-Look look_at(const KrylovBasis& basis) {
+template <class Scalar>
+Look look_at(const KrylovBasis<Scalar>& basis) {
   Look look;
-  const auto ritz = basis.ritz();
+  const auto ritz = basis.is_sound() ? basis.ritz() : std::nullopt;
   if (!ritz) return look;
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<Eigen::Index> order(static_cast<std::size_t>(ritz->values.size()));
@@ -162,60 +226,139 @@ Look look_at(const KrylovBasis& basis) {
   return look;
 }
 
-}  // namespace
+/// The size at which to look next. Frequencies of a beam, and so the radius, grow with the square
+/// of their number.
+Eigen::Index next_size(Eigen::Index size, double radius, double wanted) {
+  const double most = growth * static_cast<double>(size);
+  const double expected = margin_of_size * static_cast<double>(size) * std::sqrt(wanted / radius);
+  return std::max(size + 3, static_cast<Eigen::Index>(std::min(most, expected)));
+}
 
-/// The equations, whose order of elimination is found once.
-struct DiscSolver::State {
-  Pencil pencil;
-  ComplexSparseLu factor;
+/// The disc of an operator: grown until it is as wanted, or as far as it goes.
+template <class Scalar>
+DiscModes grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
+                const DiscSolver::WantedRadius& wanted) {
+  const auto n = op.M.rows();
+  const Complex center = op.s;
+  KrylovBasis<Scalar> basis(op, energy, 2 * n);
+  for (int i = 0; i < starts; ++i) basis.add_fresh();
+  Look look;
+  Look before;  // a fresh vector joined
+  std::vector<Complex> lambda;
+  for (Eigen::Index next = first_look;;) {
+    while (basis.size() < next && !basis.is_full() && !basis.is_invariant()) basis.advance();
+    interruption_point();
+    look = look_at(basis);
+    lambda.clear();
+    for (const Complex nu : look.nu) {
+      Complex each = center + 1.0 / nu;
+      if (std::abs(each.imag()) <= real_axis * std::abs(each)) each.imag(0.0);
+      lambda.push_back(each);
+    }
+    const std::optional<double> radius = wanted(look.radius, lambda, basis.effort());
+    const bool is_enough = radius && look.radius >= *radius;
+    if (is_enough && before.radius > 0.0 && look.within(before.radius) == before.size()) break;
+    if (basis.is_full() || !basis.is_sound() || !radius) break;
+    if (is_enough || basis.is_invariant()) {
+      if (!basis.add_fresh()) break;
+      before = is_enough ? look : Look{};
+      for (int i = 0; i < rounds && !basis.is_full() && !basis.is_invariant(); ++i) {
+        basis.advance_newest();
+      }
+      next = basis.size();
+    } else {
+      next = next_size(basis.size(), look.radius, *radius);
+    }
+  }
+  DiscModes disc{center, look.radius, CVec(look.size()), CMat(n, look.size())};
+  for (int i = 0; i < look.size(); ++i) {
+    disc.lambda(i) = lambda[static_cast<std::size_t>(i)];
+    disc.q.col(i) = basis.displacements(look.vectors[static_cast<std::size_t>(i)]).normalized();
+  }
+  return disc;
+}
+
+/// Solves with a real sparse matrix: L D L^T where it is symmetric and positive, else L U.
+class RealFactor {
+ public:
+  explicit RealFactor(const Sparse& A) {
+    if (is_symmetric(A)) ldlt_ = positive_factor(A);
+    if (!ldlt_) lu_ = SparseLu(A);
+  }
+  bool is_positive() const { return ldlt_ != nullptr; }
+  bool is_regular() const { return is_positive() || lu_.is_regular(); }
+  Mat solve(const Mat& b) const { return ldlt_ ? Mat(ldlt_->solve(b)) : lu_.solve(b); }
+
+ private:
+  std::unique_ptr<Ldlt> ldlt_;
+  SparseLu lu_;
 };
 
-DiscSolver::DiscSolver(const Sparse& M, const Sparse& D, const Sparse& K) {
-  Pencil pencil(M, D, K);
-  ComplexSparseLu factor(pencil.at(0.0));
-  state_ = std::make_unique<State>(State{std::move(pencil), std::move(factor)});
+/// A typical low frequency, by inverse iteration: velocities are measured in it.
+double low_frequency(const RealFactor& factor, const Sparse& M, const Sparse& K) {
+  Vec v = Vec::Ones(M.rows());
+  for (int i = 0; i < 3; ++i) v = factor.solve(M * v).col(0).normalized();
+  const double found = std::sqrt(std::abs(v.dot(K * v) / v.dot(M * v)));
+  return std::isfinite(found) && found > 0.0 ? found : 1.0;
 }
+
+}  // namespace
+
+struct DiscSolver::State {
+  Sparse M, D, K;
+  /// For complex centers, whose order of elimination is found once.
+  struct ComplexPart {
+    Pencil pencil;
+    ComplexSparseLu factor;
+  };
+  std::optional<ComplexPart> complex{};
+
+  ComplexPart& complex_part() {
+    if (!complex) {
+      Pencil pencil(M, D, K);
+      ComplexSparseLu factor(pencil.at(0.0));
+      complex.emplace(std::move(pencil), std::move(factor));
+    }
+    return *complex;
+  }
+};
+
+DiscSolver::DiscSolver(const Sparse& M, const Sparse& D, const Sparse& K)
+    : state_(std::make_unique<State>(State{M, D, K})) {}
 
 DiscSolver::~DiscSolver() = default;
 DiscSolver::DiscSolver(DiscSolver&&) noexcept = default;
 DiscSolver& DiscSolver::operator=(DiscSolver&&) noexcept = default;
 
 DiscModes DiscSolver::around(Complex center, double radius, int count) const {
-  State& s = *state_;
-  const auto n = s.pencil.M().rows();
-  DiscModes disc{center, 0.0, CVec(0), CMat(n, 0)};
-  if (!s.factor.factorize(s.pencil.at(center))) return disc;
-  const double scale = std::max(std::abs(center), radius < 1e300 ? 1e-3 * radius : 0.0);
-  const ShiftedInverse op{s.pencil.M(), s.pencil.D(), s.factor, center, scale > 0.0 ? scale : 1.0};
-  KrylovBasis basis(op, 2 * n);
-  for (int i = 0; i < starts; ++i) basis.add_fresh();
-  int fresh = starts;
-  Look look;
-  Look before;  // a fresh vector joined
-  for (Eigen::Index next = first_look;;) {
-    while (basis.size() < next && !basis.is_full() && !basis.is_invariant()) basis.advance();
-    look = look_at(basis);
-    const bool is_enough = look.radius >= radius || look.size() >= count;
-    if (is_enough && before.radius > 0.0 && look.within(before.radius) == before.size()) break;
-    if (basis.is_full()) break;
-    if (is_enough || basis.is_invariant()) {
-      if (!basis.add_fresh()) break;
-      before = is_enough ? look : Look{};
-      next = basis.size() + rounds * ++fresh;
-    } else {
-      next = std::max(basis.size() + 4, static_cast<Eigen::Index>(growth * basis.size()));
-    }
+  return around(center, [&](double, std::span<const Complex> lambda, double) {
+    return std::optional(std::ssize(lambda) >= count ? 0.0 : radius);
+  });
+}
+
+DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted) const {
+  State& state = *state_;
+  const DiscModes none{center, 0.0, CVec(0), CMat(state.M.rows(), 0)};
+  if (center.imag() == 0.0) {
+    const double s = center.real();
+    const RealFactor factor(s == 0.0 ? state.K : Sparse(s * s * state.M + s * state.D + state.K));
+    if (!factor.is_regular()) return none;
+    const double scale = s != 0.0 ? std::abs(s) : low_frequency(factor, state.M, state.K);
+    const auto solve = [&](const Mat& b) { return factor.solve(b); };
+    Energy energy{symmetric_part(state.K), scale * scale * symmetric_part(state.M)};
+    if (s != 0.0) energy.K += (s * s) * symmetric_part(state.M);
+    const bool is_factor_of_it = s == 0.0 && factor.is_positive();
+    if (!is_factor_of_it && !is_supported(energy.K)) energy = {};
+    return grown<double>({state.M, state.D, solve, s, scale}, energy, wanted);
   }
-  disc.radius = look.radius;
-  disc.lambda.resize(look.size());
-  disc.q.resize(n, look.size());
-  for (int i = 0; i < look.size(); ++i) {
-    Complex lambda = center + 1.0 / look.nu[static_cast<std::size_t>(i)];
-    if (std::abs(lambda.imag()) <= real_axis * std::abs(lambda)) lambda.imag(0.0);
-    disc.lambda(i) = lambda;
-    disc.q.col(i) = basis.vector(look.vectors[static_cast<std::size_t>(i)]).head(n).normalized();
-  }
-  return disc;
+  auto& [pencil, factor] = state.complex_part();
+  if (!factor.factorize(pencil.at(center))) return none;
+  const auto solve = [&lu = factor](const CMat& b) {
+    CMat x(b.rows(), b.cols());
+    for (Eigen::Index j = 0; j < b.cols(); ++j) x.col(j) = lu.solve(b.col(j));
+    return x;
+  };
+  return grown<Complex>({pencil.M(), pencil.D(), solve, center, std::abs(center)}, {}, wanted);
 }
 
 }  // namespace whirl::inline fe

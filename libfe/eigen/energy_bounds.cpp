@@ -1,6 +1,5 @@
 #include "libfe/eigen/energy_bounds.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -71,8 +70,9 @@ Sparse skew_part(const Sparse& A) {
 
 EnergyBounds energy_bounds(const Sparse& D, const Sparse& K) {
   const Sparse elastic = symmetric_part(K), damping = symmetric_part(D), skew = skew_part(K);
-  if (!is_supported(elastic)) return {};
-  const Eigen::SimplicialLDLT<Sparse> factor(elastic);
+  const auto positive = positive_factor(elastic);
+  if (!positive) return {};
+  const Ldlt& factor = *positive;
   EnergyBounds bounds{.are_known = true};
   if (damping.nonZeros() > 0) {
     const Interval found =

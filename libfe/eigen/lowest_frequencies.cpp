@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "libbase/error.hpp"
@@ -13,8 +15,6 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr int cells_up = 8;      ///< cells of the sector along Im lambda
-constexpr int most_discs = 400;  ///< before the search gives up
-constexpr int spare = 8;         ///< eigenvalues of the first disc beyond twice the number wanted
 constexpr double step = 2.0;     ///< of the top frequency where too few are found
 constexpr double same = 1e-9;    ///< relative: a frequency that belongs to those below the top
 constexpr double beyond = 4.0;   ///< over the damping time: modes are overdamped above, and more
@@ -59,12 +59,46 @@ bool is_in_sector(Complex lambda, double slope) {
   return lambda.imag() > 0.0 && std::abs(lambda.real()) < slope * lambda.imag();
 }
 
+/// Frequencies of the sector, ascending.
+std::vector<double> frequencies_of(std::span<const Complex> lambda, double slope) {
+  std::vector<double> all;
+  for (const Complex each : lambda) {
+    if (is_in_sector(each, slope)) all.push_back(each.imag());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// How far from a point a disc must reach to hold the sector up to a frequency, where eigenvalues
+/// can be.
+double reach_of_sector(double center, double top, const FrequencySearch& search) {
+  double reach = 0.0;
+  for (const Cell& cell : sector_cells(top, search)) {
+    reach = std::max(reach, cell.reach(center));
+  }
+  return reach;
+}
+
+/// The disc about the center of the search: it grows until all that is wanted is in it, or until
+/// other discs cost less. Frequencies of a beam grow with the square of their number.
+DiscModes first_disc(const DiscSolver& solver, const FrequencySearch& search) {
+  const auto count = static_cast<std::size_t>(search.count);
+  return solver.around(
+      search.center,
+      [&](double radius, std::span<const Complex> lambda, double effort) -> std::optional<double> {
+        const std::vector<double> found = frequencies_of(lambda, search.slope);
+        if (found.size() < count) return std::numeric_limits<double>::infinity();
+        const double top = count > 0 ? found[count - 1] * (1.0 + same) : 0.0;
+        const double reach = reach_of_sector(search.center, top, search);
+        if (effort * std::sqrt(reach / radius) > 1.0) return std::nullopt;
+        return reach;
+      });
+}
+
 class Cover {
  public:
   Cover(const Sparse& M, const Sparse& D, const Sparse& K, const FrequencySearch& search)
-      : solver_(M, D, K),
-        search_(search),
-        first_(solver_.around(search.center, infinity, 2 * search.count + spare)) {
+      : solver_(M, D, K), search_(search), first_(first_disc(solver_, search)) {
     add(first_);
   }
 
@@ -75,12 +109,9 @@ class Cover {
 
   /// Frequencies of the sector found so far, ascending; complete up to the last top.
   std::vector<double> frequencies() const {
-    std::vector<double> all;
-    for (const Found& f : found_) {
-      if (is_in_sector(f.lambda, search_.slope)) all.push_back(f.lambda.imag());
-    }
-    std::sort(all.begin(), all.end());
-    return all;
+    std::vector<Complex> lambda;
+    for (const Found& f : found_) lambda.push_back(f.lambda);
+    return frequencies_of(lambda, search_.slope);
   }
 
   QuadraticModes result(double top) const {
@@ -108,7 +139,6 @@ class Cover {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int any = std::numeric_limits<int>::max();
 
   struct Found {
@@ -165,7 +195,7 @@ class Cover {
   bool try_disc(Complex center, const std::vector<Cell>& cells) {
     double radius = 0.0;
     for (const Cell& cell : cells) radius = std::max(radius, cell.reach(center));
-    if (static_cast<int>(discs_.size()) >= most_discs) {
+    if (static_cast<int>(discs_.size()) >= search_.most_discs) {
       throw NumericalError("the damped frequencies cannot be told apart from overdamped motions");
     }
     const DiscModes disc = solver_.around(center, radius, any);
@@ -195,13 +225,6 @@ class Cover {
 };
 
 }  // namespace
-
-bool covers_sector(double center, double radius, double top, const FrequencySearch& search) {
-  for (const Cell& cell : sector_cells(top, search)) {
-    if (cell.reach(center) > radius) return false;
-  }
-  return true;
-}
 
 QuadraticModes lowest_frequencies(const Sparse& M, const Sparse& D, const Sparse& K,
                                   const FrequencySearch& search) {

@@ -11,25 +11,29 @@ class Pencil {
       : M_(on_pattern(1.0, M, 0.0, D, 0.0, K)),
         D_(on_pattern(0.0, M, 1.0, D, 0.0, K)),
         K_(on_pattern(0.0, M, 0.0, D, 1.0, K)),
-        Q_(K_) {}
+        Q_(K_.cast<Complex>()) {}
 
-  const CSparse& M() const { return M_; }
-  const CSparse& D() const { return D_; }
+  const Sparse& M() const { return M_; }
+  const Sparse& D() const { return D_; }
   /// Q(lambda); valid until the next call.
   const CSparse& at(Complex lambda) {
-    Q_.coeffs() = (lambda * lambda) * M_.coeffs() + lambda * D_.coeffs() + K_.coeffs();
+    const Complex square = lambda * lambda;
+    const double *m = M_.valuePtr(), *d = D_.valuePtr(), *k = K_.valuePtr();
+    Complex* q = Q_.valuePtr();
+    for (Eigen::Index i = 0; i < Q_.nonZeros(); ++i) q[i] = square * m[i] + lambda * d[i] + k[i];
     return Q_;
   }
 
  private:
-  static CSparse on_pattern(double m, const Sparse& M, double d, const Sparse& D, double k,
-                            const Sparse& K) {
-    CSparse sum = (m * M + d * D + k * K).eval().cast<Complex>();
+  static Sparse on_pattern(double m, const Sparse& M, double d, const Sparse& D, double k,
+                           const Sparse& K) {
+    Sparse sum = m * M + d * D + k * K;
     sum.makeCompressed();
     return sum;
   }
 
-  CSparse M_, D_, K_, Q_;
+  Sparse M_, D_, K_;
+  CSparse Q_;
 };
 
 }  // namespace whirl::inline fe

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline fe {
@@ -24,29 +22,5 @@ struct QuadraticModes {
 /// @throws NumericalError  if the QR iteration fails
 QuadraticModes dense_quadratic_modes(const Sparse& M, const Sparse& D, const Sparse& K,
                                      double shift = 0.0);
-
-/// Eigenpairs nearest to a real shift, by Arnoldi on the second-order problem.
-///
-///   x = -(s^2 M + s D + K)^-1 (M p + (s M + D) q),   v = s x + q
-///
-/// so that no state matrix is formed. For s = 0 the one factorization of K serves every D.
-///
-/// @source Spectra; [TisseurMeerbergen2001], sec. 3.4
-class QuadraticSolver {
- public:
-  /// @param shift  [rad/s]; 0 needs a regular K; free systems take a negative one
-  QuadraticSolver(Sparse M, Sparse K, double shift);
-  ~QuadraticSolver();
-  QuadraticSolver(QuadraticSolver&&) noexcept;
-  QuadraticSolver& operator=(QuadraticSolver&&) noexcept;
-
-  /// At least `pairs` eigenvalues with Im > 0 (fewer if there are fewer), the real ones between.
-  /// @throws NumericalError  if Arnoldi does not converge
-  QuadraticModes lowest(const Sparse& D, int pairs) const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
 
 }  // namespace whirl::inline fe

@@ -4,7 +4,6 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +14,6 @@
 namespace whirl::inline fe {
 
 namespace {
-
-using Ldlt = Eigen::SimplicialLDLT<Sparse>;
 
 constexpr int dense_below = 120;       ///< dofs; dense is as fast there and never misses
 constexpr double rigid_share = 1e-5;   ///< of the first flexible omega^2: a rigid-body mode
@@ -152,13 +149,17 @@ Sparse symmetric_inertia(const Sparse& M) {
   return is_symmetric(M) ? M : symmetric_part(M);
 }
 
+std::unique_ptr<Ldlt> positive_factor(const Sparse& K) {
+  auto factor = std::make_unique<Ldlt>(K);
+  if (factor->info() != Eigen::Success) return nullptr;
+  const Vec diagonal = factor->permutationP() * Vec(K.diagonal());
+  const Vec pivots = factor->vectorD();
+  const bool is_positive = ((pivots.array() - pivot_noise * diagonal.array().abs()) > 0.0).all();
+  return is_positive ? std::move(factor) : nullptr;
+}
+
 bool is_supported(const Sparse& K) {
-  if (K.rows() == 0) return true;
-  const Ldlt factor(K);
-  if (factor.info() != Eigen::Success) return false;
-  const Vec diagonal = factor.permutationP() * Vec(K.diagonal());
-  const Vec pivots = factor.vectorD();
-  return ((pivots.array() - pivot_noise * diagonal.array().abs()) > 0.0).all();
+  return K.rows() == 0 || positive_factor(K);
 }
 
 RealModes lowest_real_modes(const Sparse& K, const Sparse& M, int count) {
