@@ -44,6 +44,7 @@ set_target_properties(whirl_options PROPERTIES EXPORT_NAME options)
 configure_package_config_file(cmake/whirlConfig.cmake.in whirlConfig.cmake INSTALL_DESTINATION ${package})
 write_basic_package_version_file(whirlConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/whirlConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/whirlConfigVersion.cmake
+              cmake/FindKLU.cmake
         DESTINATION ${package})
 
 # cpack -G DEB in the build folder: Debian packages of the component runtime, and of the Python package

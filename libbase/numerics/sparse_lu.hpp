@@ -1,5 +1,5 @@
 #pragma once
-/// Sparse LU factors by Eigen, compiled once.
+/// Sparse LU factors by KLU of SuiteSparse [DavisPalamadai2010].
 
 #include <memory>
 
@@ -29,7 +29,7 @@ class SparseLu {
 /// LU factors of complex matrices, one after the other, whose entries stand at the same places.
 class ComplexSparseLu {
  public:
-  /// Finds the order of elimination for matrices with entries at these places.
+  /// Finds the order of elimination for matrices with entries at these places; compressed.
   explicit ComplexSparseLu(const CSparse& pattern);
   ~ComplexSparseLu();
   ComplexSparseLu(ComplexSparseLu&&) noexcept;

@@ -17,11 +17,12 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double speed_tol = 1e-12;
-constexpr double damped_tol = 1e-10;   ///< of a speed, |Im lambda - order * Omega|
-constexpr double least_alike = 0.3;    ///< MAC of a mode that goes on from speed to speed
-constexpr double surely_alike = 0.95;  ///< likewise, that need not be compared with others
-constexpr double range = 5.0;          ///< damped speeds beyond so many times are not looked for
-constexpr double rounding = 1e-13;     ///< of the largest nu: smaller ones have no finite speed
+constexpr double damped_tol = 1e-10;       ///< of a speed, |Im lambda - order * Omega|
+constexpr double rounding_of_gaps = 1e-7;  ///< the same, of gaps that do not shrink any more
+constexpr double least_alike = 0.3;        ///< MAC of a mode that goes on from speed to speed
+constexpr double surely_alike = 0.95;      ///< likewise, that need not be compared with others
+constexpr double range = 5.0;       ///< damped speeds beyond so many times are not looked for
+constexpr double rounding = 1e-13;  ///< of the largest nu: smaller ones have no finite speed
 
 }  // namespace
 
@@ -139,7 +140,9 @@ void find_damped(const ModeFinder& finder, const CriticalOptions& options, Criti
     }
     const double gb = mode.gap(b);
     if (!std::isfinite(gb)) return;
-    if (std::abs(gb) <= damped_tol * b) return found(b);
+    const bool is_rounding =
+        std::abs(ga) <= rounding_of_gaps * a && std::abs(gb) > 0.5 * std::abs(ga);
+    if (std::abs(gb) <= damped_tol * b || is_rounding) return found(b);
     if (gb == ga) break;
     const double next = b - gb * (b - a) / (gb - ga);
     a = b, ga = gb;

@@ -20,9 +20,8 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int largest_basis = 100;       ///< vectors; beyond, more discs cost less than larger ones
 constexpr int first_look = 18;           ///< vectors before eigenvalues are computed first
-constexpr double growth = 1.25;          ///< of the basis from look to look, at most
+constexpr double growth = 1.3;           ///< of the basis from look to look, at most
 constexpr double margin_of_size = 1.05;  ///< of the basis that a radius is expected to take
 constexpr int starts = 2;                ///< vectors at the beginning: isotropic rotors have pairs
 constexpr int rounds = 5;  ///< powers of the inverse a fresh vector gets to show something
@@ -79,10 +78,11 @@ struct Energy {
 template <class Scalar>
 class KrylovBasis {
  public:
-  KrylovBasis(const ShiftedInverse<Scalar>& op, const Energy& energy, Eigen::Index states)
+  KrylovBasis(const ShiftedInverse<Scalar>& op, const Energy& energy, Eigen::Index states,
+              Eigen::Index most)
       : op_(op),
         energy_(energy),
-        most_(std::min<Eigen::Index>(largest_basis, states)),
+        most_(std::min(most, states)),
         vectors_(states, most_ + starts + 8),
         weighed_(energy.is_euclidean() ? 0 : states, vectors_.cols()),
         projected_(MatOf<Scalar>::Zero(vectors_.cols(), most_)) {}
@@ -237,10 +237,10 @@ Eigen::Index next_size(Eigen::Index size, double radius, double wanted) {
 /// The disc of an operator: grown until it is as wanted, or as far as it goes.
 template <class Scalar>
 DiscModes grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
-                const DiscSolver::WantedRadius& wanted) {
+                const DiscSolver::WantedRadius& wanted, int most) {
   const auto n = op.M.rows();
   const Complex center = op.s;
-  KrylovBasis<Scalar> basis(op, energy, 2 * n);
+  KrylovBasis<Scalar> basis(op, energy, 2 * n, most);
   for (int i = 0; i < starts; ++i) basis.add_fresh();
   Look look;
   Look before;  // a fresh vector joined
@@ -330,13 +330,16 @@ DiscSolver::~DiscSolver() = default;
 DiscSolver::DiscSolver(DiscSolver&&) noexcept = default;
 DiscSolver& DiscSolver::operator=(DiscSolver&&) noexcept = default;
 
-DiscModes DiscSolver::around(Complex center, double radius, int count) const {
-  return around(center, [&](double, std::span<const Complex> lambda, double) {
-    return std::optional(std::ssize(lambda) >= count ? 0.0 : radius);
-  });
+DiscModes DiscSolver::around(Complex center, double radius, int count, int most) const {
+  return around(
+      center,
+      [&](double, std::span<const Complex> lambda, double) {
+        return std::optional(std::ssize(lambda) >= count ? 0.0 : radius);
+      },
+      most);
 }
 
-DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted) const {
+DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted, int most) const {
   State& state = *state_;
   const DiscModes none{center, 0.0, CVec(0), CMat(state.M.rows(), 0)};
   if (center.imag() == 0.0) {
@@ -349,7 +352,7 @@ DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted) const {
     if (s != 0.0) energy.K += (s * s) * symmetric_part(state.M);
     const bool is_factor_of_it = s == 0.0 && factor.is_positive();
     if (!is_factor_of_it && !is_supported(energy.K)) energy = {};
-    return grown<double>({state.M, state.D, solve, s, scale}, energy, wanted);
+    return grown<double>({state.M, state.D, solve, s, scale}, energy, wanted, most);
   }
   auto& [pencil, factor] = state.complex_part();
   if (!factor.factorize(pencil.at(center))) return none;
@@ -358,7 +361,8 @@ DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted) const {
     for (Eigen::Index j = 0; j < b.cols(); ++j) x.col(j) = lu.solve(b.col(j));
     return x;
   };
-  return grown<Complex>({pencil.M(), pencil.D(), solve, center, std::abs(center)}, {}, wanted);
+  return grown<Complex>({pencil.M(), pencil.D(), solve, center, std::abs(center)}, {}, wanted,
+                        most);
 }
 
 }  // namespace whirl::inline fe

@@ -32,6 +32,8 @@ struct DiscModes {
 /// @source [TisseurMeerbergen2001], sec. 3.4; [Ruhe1979] for several starting vectors
 class DiscSolver {
  public:
+  static constexpr int largest_basis = 100;  ///< vectors; beyond, more discs cost less
+
   /// What is wanted of a disc, of which so much is known: its radius, infinite while that cannot be
   /// said; nothing: the disc stays as it is.
   ///
@@ -48,9 +50,11 @@ class DiscSolver {
 
   /// The disc grows until it has this radius, or holds so many eigenvalues, or the basis is at its
   /// largest; its radius is then what was reached, zero if the matrix is singular at the center.
-  DiscModes around(Complex center, double radius, int count) const;
+  ///
+  /// @param most  vectors of the basis
+  DiscModes around(Complex center, double radius, int count, int most = largest_basis) const;
   /// The same until it has the radius that is wanted.
-  DiscModes around(Complex center, const WantedRadius& wanted) const;
+  DiscModes around(Complex center, const WantedRadius& wanted, int most = largest_basis) const;
 
  private:
   struct State;

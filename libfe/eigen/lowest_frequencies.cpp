@@ -14,7 +14,9 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int cells_up = 8;      ///< cells of the sector along Im lambda
+constexpr int cells_up = 8;  ///< cells of the sector along Im lambda
+constexpr int usual_basis =
+    60;  ///< vectors of a disc that may be divided: eigenvalues of a larger one cost more
 constexpr double step = 2.0;     ///< of the top frequency where too few are found
 constexpr double same = 1e-9;    ///< relative: a frequency that belongs to those below the top
 constexpr double beyond = 4.0;   ///< over the damping time: modes are overdamped above, and more
@@ -182,7 +184,7 @@ class Cover {
                  height = high->center().imag() - low->center().imag();
     const Complex middle{0.5 * (right->center().real() + left->center().real()),
                          0.5 * (high->center().imag() + low->center().imag())};
-    if (try_disc(middle, cells)) return;
+    if (try_disc(middle, cells, usual_basis)) return;
     const auto second = std::partition(cells.begin(), cells.end(), [&](const Cell& cell) {
       return width >= height ? cell.center().real() < middle.real()
                              : cell.center().imag() < middle.imag();
@@ -192,19 +194,19 @@ class Cover {
   }
 
   /// Whether a disc about a point that is not in another one covers all cells.
-  bool try_disc(Complex center, const std::vector<Cell>& cells) {
+  bool try_disc(Complex center, const std::vector<Cell>& cells, int most) {
     double radius = 0.0;
     for (const Cell& cell : cells) radius = std::max(radius, cell.reach(center));
     if (static_cast<int>(discs_.size()) >= search_.most_discs) {
       throw NumericalError("the damped frequencies cannot be told apart from overdamped motions");
     }
-    const DiscModes disc = solver_.around(center, radius, any);
+    const DiscModes disc = solver_.around(center, radius, any, most);
     add(disc);
     return disc.radius >= radius;
   }
 
   void refine(const Cell& cell) {
-    if (try_disc(cell.center(), {cell})) return;
+    if (try_disc(cell.center(), {cell}, DiscSolver::largest_basis)) return;
     const double x = 0.5 * (cell.near + cell.far), y = 0.5 * (cell.low + cell.high);
     if (cell.far - cell.near < finest * std::abs(cell.center())) {
       throw NumericalError("too many damped frequencies are too close to one another");

@@ -17,7 +17,7 @@ target_link_libraries(whirl_solvers INTERFACE
   ${WHIRL_FUZZ_SOLVERS}/libbase/libwhirl_base.a
   SUNDIALS::cvode SUNDIALS::arkode SUNDIALS::nvecserial SUNDIALS::sunmatrixdense
   SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint PkgConfig::highway quadmath
-  Threads::Threads)
+  Threads::Threads KLU::klu)
 
 # Meshing, errors and readings of records, which see what was read, are compiled for the fuzzer too. The solvers' library may hold
 # them in one object with others (a unity build), so that it cannot leave them out: the first ones count.

@@ -1,0 +1,10 @@
+# KLU of SuiteSparse, which Debian has without a file for CMake: the target KLU::klu.
+find_path(KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse)
+find_library(KLU_LIBRARY klu)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(KLU REQUIRED_VARS KLU_LIBRARY KLU_INCLUDE_DIR)
+if(KLU_FOUND AND NOT TARGET KLU::klu)
+  add_library(KLU::klu UNKNOWN IMPORTED)
+  set_target_properties(KLU::klu PROPERTIES IMPORTED_LOCATION ${KLU_LIBRARY}
+                                            INTERFACE_INCLUDE_DIRECTORIES ${KLU_INCLUDE_DIR})
+endif()
