@@ -233,6 +233,24 @@ Structure on_strong_dampers(int elements) {
           .bearings = {test::bearing(at(0.0), film), test::bearing(at(2.0), film)}};
 }
 
+// Of 1500 elements rounding keeps the equation of a damped one above its tolerance.
+TEST(CriticalSpeeds, DampedOnesOfAFineMeshAreThoseOfACoarseOne) {
+  constexpr double mesh = 1e-5;  // relative: what elements leave out, and rounding
+  const auto damped = [](int elements) {
+    const Structure s = test::two_disk(test::orthotropic(1e6, 1.6e6, 300.0, 500.0), elements);
+    std::vector<double> speeds;
+    for (const Critical& c : critical_speeds(Assembler(s), {.count = 4})) {
+      speeds.push_back(c.damped_speed);
+    }
+    return speeds;
+  };
+  const std::vector<double> fine = damped(250), coarse = damped(6);
+  ASSERT_EQ(fine.size(), coarse.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    EXPECT_NEAR(fine[i], coarse[i], mesh * coarse[i]) << i;
+  }
+}
+
 // Creeping and overdamped motions stand between the modes: undamped speeds come nevertheless, a
 // damped one for some of them, and the others say why not. Damped ones against the dense solver.
 TEST(CriticalSpeeds, ComeOnStrongDampersAndSayWhereThereIsNoDampedOne) {
