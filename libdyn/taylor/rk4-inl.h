@@ -24,6 +24,65 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// Where the rotor is beside the surface of a contact; d and r are those of ContactLanes.
+template <class P>
+struct PlaceOfContact {
+  P dx, dy;                  // d; at first the displacement
+  P depth, inverse_r{1.0};   // inverse_r: 1 / r
+  P tip_x{0.0}, tip_y{0.0};  // of a blade, from the disk's center
+  typename P::Mask beyond;   // lanes in which it is beyond the surface
+
+  /// From the displacement to the place; whether a lane is beyond the surface.
+  HWY_INLINE HWY_ATTR bool find(const ContactLanes<P>& c) {
+    return c.rows.is_plane ? find_on_plane(c) : c.wall ? find_on_wall(c) : find_on_circle(c);
+  }
+
+ private:
+  HWY_INLINE HWY_ATTR bool find_on_circle(const ContactLanes<P>& c) {
+    dx = dx - c.offset_x;
+    dy = dy - c.offset_y;
+    if (c.disk) {
+      const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
+      tip_x = c.disk->radius * fnma(sine, c.blade_sine, cosine * c.blade_cosine);
+      tip_y = c.disk->radius * fma(cosine, c.blade_sine, sine * c.blade_cosine);
+      dx = dx + tip_x;
+      dy = dy + tip_y;
+    }
+    const P s = fma(dx, dx, dy * dy);
+    beyond = less(c.clearance2, s);
+    if (!any(s, beyond)) return false;
+    const P r = sqrt(select(beyond, s, c.clearance2));
+    inverse_r = P(1.0) / r;
+    depth = r - c.clearance;
+    return true;
+  }
+
+  /// d is the normal, r is one.
+  HWY_INLINE HWY_ATTR bool find_on_plane(const ContactLanes<P>& c) {
+    const P above = fma(c.dx[0], dx, c.dy[0] * dy) - c.plane_at, nothing(0.0);
+    dx = c.dx[0];
+    dy = c.dy[0];
+    beyond = less(nothing, above);
+    depth = select(beyond, above, nothing);
+    return any(above, beyond);
+  }
+
+  /// d is the normal, r is one.
+  HWY_NOINLINE HWY_ATTR bool find_on_wall(const ContactLanes<P>& c) {
+    const WallLanes<P>& wall = *c.wall;
+    const P x = dx - c.offset_x, y = dy - c.offset_y;
+    const P square = wall.square_of(x, y);
+    beyond = less(P(1.0), square);
+    if (!any(square, beyond)) return false;
+    const WallGap<P> gap =
+        wall.at(select(beyond, x, wall.harmless_x), select(beyond, y, wall.harmless_y));
+    dx = gap.nx;
+    dy = gap.ny;
+    depth = max(gap.depth, P(0.0));
+    return true;
+  }
+};
+
 /// The classical Runge-Kutta method as methods/rk4.hpp has it: equal steps, contacts and the sign
 /// of friction as the state of each stage says.
 template <class P>
@@ -191,22 +250,11 @@ class Rk4Lanes {
     for (const auto& film : films_) film->add_force(y, rate, a, thinnest_);
   }
 
-  /// Where the rotor is beside the surface of a contact; d and r are those of ContactLanes.
-  struct Place {
-    P dx, dy;                  // d; at first the displacement
-    P depth, inverse_r{1.0};   // inverse_r: 1 / r
-    P tip_x{0.0}, tip_y{0.0};  // of a blade, from the disk's center
-    Mask beyond;               // lanes in which it is beyond the surface
-  };
-
   /// Adds the force of a contact where it touches and pushes.
   HWY_ATTR void push(const ContactLanes<P>& c, const P* y, P* a) const {
-    Place at;
+    PlaceOfContact<P> at;
     c.displacement(y, at.dx, at.dy);
-    const bool any_beyond = c.rows.is_plane ? find_plane(c, at)
-                            : c.wall        ? find_wall(c, at)
-                                            : find_circle(c, at);
-    if (!any_beyond) return;
+    if (!at.find(c)) return;
     P vx, vy;
     c.displacement(layout().rates_at(y), vx, vy);
     if (c.disk) {
@@ -221,54 +269,9 @@ class Rk4Lanes {
     push_by(c, q, at, vx, vy, y, a);
   }
 
-  /// From the displacement to the place; whether a lane is beyond the surface.
-  HWY_ATTR inline bool find_circle(const ContactLanes<P>& c, Place& at) const {
-    at.dx = at.dx - c.offset_x;
-    at.dy = at.dy - c.offset_y;
-    if (c.disk) {
-      const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
-      at.tip_x = c.disk->radius * fnma(sine, c.blade_sine, cosine * c.blade_cosine);
-      at.tip_y = c.disk->radius * fma(cosine, c.blade_sine, sine * c.blade_cosine);
-      at.dx = at.dx + at.tip_x;
-      at.dy = at.dy + at.tip_y;
-    }
-    const P s = fma(at.dx, at.dx, at.dy * at.dy);
-    at.beyond = less(c.clearance2, s);
-    if (!any(s, at.beyond)) return false;
-    const P r = sqrt(select(at.beyond, s, c.clearance2));
-    at.inverse_r = P(1.0) / r;
-    at.depth = r - c.clearance;
-    return true;
-  }
-
-  /// The same of a plane: d is its normal, r is one.
-  HWY_ATTR inline bool find_plane(const ContactLanes<P>& c, Place& at) const {
-    const P depth = fma(c.dx[0], at.dx, c.dy[0] * at.dy) - c.plane_at, nothing(0.0);
-    at.dx = c.dx[0];
-    at.dy = c.dy[0];
-    at.beyond = less(nothing, depth);
-    at.depth = select(at.beyond, depth, nothing);
-    return any(depth, at.beyond);
-  }
-
-  /// The same of a wall.
-  HWY_ATTR bool find_wall(const ContactLanes<P>& c, Place& at) const {
-    const WallLanes<P>& wall = *c.wall;
-    const P x = at.dx - c.offset_x, y = at.dy - c.offset_y;
-    const P square = wall.square_of(x, y);
-    at.beyond = less(P(1.0), square);
-    if (!any(square, at.beyond)) return false;
-    const WallGap<P> gap =
-        wall.at(select(at.beyond, x, wall.harmless_x), select(at.beyond, y, wall.harmless_y));
-    at.dx = gap.nx;
-    at.dy = gap.ny;
-    at.depth = max(gap.depth, P(0.0));
-    return true;
-  }
-
   /// Adds -(q d + tau rot d), with the velocity (vx, vy) of the place.
-  HWY_ATTR inline void push_by(const ContactLanes<P>& c, const P& q, const Place& at, P vx, P vy,
-                               const P* y, P* a) const {
+  HWY_ATTR inline void push_by(const ContactLanes<P>& c, const P& q, const PlaceOfContact<P>& at,
+                               P vx, P vy, const P* y, P* a) const {
     const P &dx = at.dx, &dy = at.dy;
     if (!c.rows.has_friction) {
       c.push(a, q * dx, q * dy);

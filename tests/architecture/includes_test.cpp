@@ -136,6 +136,7 @@ TEST(Architecture, OneFunctionPrints) {
 TEST(Architecture, EachLibraryHasOneHome) {
   const std::vector<std::pair<std::string, std::string>> homes{
       {"Spectra/", "libfe/eigen/"},
+      {"klu", "libbase/numerics/sparse_lu"},
       {"Eigen/Sparse(LU|Cholesky)", "lib(base/numerics|fe/eigen)/"},
       {"cvode/", "libdyn/methods/cvode"},
       {"arkode/", "libdyn/methods/"},
