@@ -83,13 +83,15 @@ class KrylovBasis {
       : op_(op),
         energy_(energy),
         most_(std::min(most, states)),
-        vectors_(states, most_ + starts + 8),
+        vectors_(states, most_ + 2 * rounds + starts + 4),
         weighed_(energy.is_euclidean() ? 0 : states, vectors_.cols()),
-        projected_(MatOf<Scalar>::Zero(vectors_.cols(), most_)) {}
+        projected_(MatOf<Scalar>::Zero(vectors_.cols(), most_ + 2 * rounds)) {}
 
   /// Number of vectors whose images are known.
   Eigen::Index size() const { return done_; }
   bool is_full() const { return done_ >= most_; }
+  /// Whether fresh vectors can be followed beyond that.
+  bool has_room() const { return done_ < projected_.cols(); }
   /// Whether all energies are those of a positive inertia: else nothing is known.
   bool is_sound() const { return is_sound_; }
   double effort() const { return static_cast<double>(done_) / static_cast<double>(most_); }
@@ -244,6 +246,7 @@ DiscModes grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
   for (int i = 0; i < starts; ++i) basis.add_fresh();
   Look look;
   Look before;  // a fresh vector joined
+  bool is_last = false;
   std::vector<Complex> lambda;
   for (Eigen::Index next = first_look;;) {
     while (basis.size() < next && !basis.is_full() && !basis.is_invariant()) basis.advance();
@@ -256,13 +259,14 @@ DiscModes grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
       lambda.push_back(each);
     }
     const std::optional<double> radius = wanted(look.radius, lambda, basis.effort());
-    const bool is_enough = radius && look.radius >= *radius;
-    if (is_enough && before.radius > 0.0 && look.within(before.radius) == before.size()) break;
-    if (basis.is_full() || !basis.is_sound() || !radius) break;
-    if (is_enough || basis.is_invariant()) {
+    const bool is_enough = !radius || look.radius >= *radius;
+    const bool is_confirmed = before.radius > 0.0 && look.within(before.radius) == before.size();
+    if ((is_enough && is_confirmed) || is_last || !basis.is_sound()) break;
+    if (is_enough || basis.is_full() || basis.is_invariant()) {
+      is_last = basis.is_full();
       if (!basis.add_fresh()) break;
       before = is_enough ? look : Look{};
-      for (int i = 0; i < rounds && !basis.is_full() && !basis.is_invariant(); ++i) {
+      for (int i = 0; i < rounds && basis.has_room() && !basis.is_invariant(); ++i) {
         basis.advance_newest();
       }
       next = basis.size();

@@ -35,7 +35,7 @@ class DiscSolver {
   static constexpr int largest_basis = 100;  ///< vectors; beyond, more discs cost less
 
   /// What is wanted of a disc, of which so much is known: its radius, infinite while that cannot be
-  /// said; nothing: the disc stays as it is.
+  /// said; nothing: the disc may stay as it is.
   ///
   /// @param radius  every eigenvalue nearer to the center is known [rad/s]
   /// @param lambda  these, nearest to the center first [rad/s]

@@ -14,9 +14,8 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int cells_up = 8;  ///< cells of the sector along Im lambda
-constexpr int usual_basis =
-    60;  ///< vectors of a disc that may be divided: eigenvalues of a larger one cost more
+constexpr int cells_up = 8;      ///< cells of the sector along Im lambda
+constexpr int usual_basis = 60;  ///< vectors of a disc that may be divided: large ones cost more
 constexpr double step = 2.0;     ///< of the top frequency where too few are found
 constexpr double same = 1e-9;    ///< relative: a frequency that belongs to those below the top
 constexpr double beyond = 4.0;   ///< over the damping time: modes are overdamped above, and more
@@ -82,7 +81,8 @@ double reach_of_sector(double center, double top, const FrequencySearch& search)
 }
 
 /// The disc about the center of the search: it grows until all that is wanted is in it, or until
-/// other discs cost less. Frequencies of a beam grow with the square of their number.
+/// a basis of the largest size would not do. Frequencies of a beam, and so the radius, grow with
+/// the square of their number.
 DiscModes first_disc(const DiscSolver& solver, const FrequencySearch& search) {
   const auto count = static_cast<std::size_t>(search.count);
   return solver.around(
