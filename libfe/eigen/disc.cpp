@@ -321,7 +321,7 @@ struct DiscSolver::State {
     if (!complex) {
       Pencil pencil(M, D, K);
       ComplexSparseLu factor(pencil.at(0.0));
-      complex.emplace(std::move(pencil), std::move(factor));
+      complex = ComplexPart{std::move(pencil), std::move(factor)};
     }
     return *complex;
   }
