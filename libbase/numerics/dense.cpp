@@ -34,6 +34,7 @@ template class DenseLu<Mat>;
 template class DenseLu<CMat>;
 
 std::optional<GeneralModes> general_modes(const Mat& A) {
+  if (A.size() == 0 || !A.allFinite()) return std::nullopt;
   const Eigen::EigenSolver<Mat> solver(A);
   if (solver.info() != Eigen::Success) return std::nullopt;
   return GeneralModes{solver.eigenvalues(), solver.eigenvectors()};

@@ -46,7 +46,7 @@ struct GeneralModes {
   CVec values;
   CMat vectors;  ///< a column for each, of length 1
 };
-/// A v = lambda v; nothing if the iteration does not converge.
+/// A v = lambda v; nothing if the iteration does not converge, or A is empty or not finite.
 std::optional<GeneralModes> general_modes(const Mat& A);
 
 /// The x that comes nearest to A x = b, also where A is singular.

@@ -2,6 +2,7 @@
 
 #include <klu.h>
 
+#include <cassert>
 #include <vector>
 
 #include "libbase/system/interruption.hpp"
@@ -51,16 +52,19 @@ class KluFactors {
   KluFactors(const KluFactors&) = delete;
   KluFactors& operator=(const KluFactors&) = delete;
 
-  /// Whether A, on the pattern, has an inverse.
+  /// Whether A, on the pattern, has an inverse and is finite.
   bool factorize(const Matrix& A) {
-    constexpr double least_growth = 1e-4;  // reciprocal: less than this lets rounding grow
     auto* values = reinterpret_cast<double*>(const_cast<Scalar*>(A.valuePtr()));
     // the order of pivots of the last matrix serves, which takes half the time, while it is stable
-    const bool is_known = numeric_ && refactorize(values) && common_.rgrowth > least_growth;
-    if (is_known) return true;
-    forget();
-    if (!symbolic_) return false;
-    numeric_ = Klu<Scalar>::factor(columns_.data(), rows_.data(), values, symbolic_, &common_);
+    if (numeric_ && refactorize(values) && is_stable(values)) return true;
+    for (const double least_pivot : {0.001, 1.0}) {  // of its column: the diagonal first, then any
+      forget();
+      if (!symbolic_) return false;
+      common_.tol = least_pivot;
+      numeric_ = Klu<Scalar>::factor(columns_.data(), rows_.data(), values, symbolic_, &common_);
+      if (!numeric_ || is_stable(values)) break;
+    }
+    if (numeric_ && !has_pivots()) forget();
     return numeric_ != nullptr;
   }
   bool is_regular() const { return numeric_ != nullptr; }
@@ -68,17 +72,26 @@ class KluFactors {
   /// Turns columns b into A^-1 b.
   template <class Columns>
   void solve(Columns& b) {
+    assert(is_regular());
     Klu<Scalar>::solve(symbolic_, numeric_, static_cast<int>(b.rows()), static_cast<int>(b.cols()),
                        reinterpret_cast<double*>(b.data()), &common_);
   }
 
  private:
   bool refactorize(double* values) {
-    using K = Klu<Scalar>;
-    // of blocks of one row only the condition tells those that are zero
-    return K::refactor(columns_.data(), rows_.data(), values, symbolic_, numeric_, &common_) &&
-           K::condition(symbolic_, numeric_, &common_) && common_.rcond > 0.0 &&
-           K::growth(columns_.data(), rows_.data(), values, symbolic_, numeric_, &common_);
+    return Klu<Scalar>::refactor(columns_.data(), rows_.data(), values, symbolic_, numeric_,
+                                 &common_);
+  }
+  /// Whether all pivots are numbers other than zero: of blocks of one row KLU says that only here.
+  bool has_pivots() {
+    return Klu<Scalar>::condition(symbolic_, numeric_, &common_) && common_.rcond > 0.0;
+  }
+  bool is_stable(double* values) {
+    constexpr double least_growth = 1e-4;  // reciprocal: less than this lets rounding grow
+    return has_pivots() &&
+           Klu<Scalar>::growth(columns_.data(), rows_.data(), values, symbolic_, numeric_,
+                               &common_) &&
+           common_.rgrowth > least_growth;
   }
   void forget() {
     if (numeric_) Klu<Scalar>::free_numeric(&numeric_, &common_);

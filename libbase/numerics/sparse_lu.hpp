@@ -18,7 +18,7 @@ class SparseLu {
 
   /// Whether A has an inverse; only then solve() has an answer.
   bool is_regular() const;
-  /// A^-1 b, for one or several columns b.
+  /// A^-1 b, for one or several columns b; from one thread at a time.
   Mat solve(const Eigen::Ref<const Mat>& b) const;
 
  private:
@@ -29,7 +29,9 @@ class SparseLu {
 /// LU factors of complex matrices, one after the other, whose entries stand at the same places.
 class ComplexSparseLu {
  public:
-  /// Finds the order of elimination for matrices with entries at these places; compressed.
+  /// Finds the order of elimination for matrices with entries at these places. The pattern must be
+  /// compressed. Factors keep the order of pivots while it is stable, so that their last bits
+  /// depend on the matrices before.
   explicit ComplexSparseLu(const CSparse& pattern);
   ~ComplexSparseLu();
   ComplexSparseLu(ComplexSparseLu&&) noexcept;
@@ -37,7 +39,7 @@ class ComplexSparseLu {
 
   /// Whether A, on the pattern, has an inverse; only then solve() has an answer.
   bool factorize(const CSparse& A);
-  /// A^-1 b
+  /// A^-1 b; from one thread at a time.
   CVec solve(const CVec& b) const;
 
  private:

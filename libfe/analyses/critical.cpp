@@ -17,12 +17,13 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double speed_tol = 1e-12;
-constexpr double damped_tol = 1e-10;       ///< of a speed, |Im lambda - order * Omega|
-constexpr double rounding_of_gaps = 1e-7;  ///< the same, of gaps that do not shrink any more
-constexpr double least_alike = 0.3;        ///< MAC of a mode that goes on from speed to speed
-constexpr double surely_alike = 0.95;      ///< likewise, that need not be compared with others
-constexpr double range = 5.0;       ///< damped speeds beyond so many times are not looked for
-constexpr double rounding = 1e-13;  ///< of the largest nu: smaller ones have no finite speed
+constexpr double damped_tol = 1e-10;  ///< of a speed, |Im lambda - order * Omega|
+constexpr double rounding_of_gaps =
+    1e-7;                              ///< of a speed: smaller gaps that do not shrink are rounding
+constexpr double least_alike = 0.3;    ///< MAC of a mode that goes on from speed to speed
+constexpr double surely_alike = 0.95;  ///< likewise, that need not be compared with others
+constexpr double range = 5.0;          ///< damped speeds beyond so many times are not looked for
+constexpr double rounding = 1e-13;     ///< of the largest nu: smaller ones have no finite speed
 
 }  // namespace
 
@@ -140,8 +141,10 @@ void find_damped(const ModeFinder& finder, const CriticalOptions& options, Criti
     }
     const double gb = mode.gap(b);
     if (!std::isfinite(gb)) return;
+    // the first step is half a one: only secants that no longer help are at the end of digits
+    const double last = std::abs(ga), now = std::abs(gb);
     const bool is_rounding =
-        std::abs(ga) <= rounding_of_gaps * a && std::abs(gb) > 0.5 * std::abs(ga);
+        it > 0 && last <= rounding_of_gaps * a && now > 0.5 * last && now < 2.0 * last;
     if (std::abs(gb) <= damped_tol * b || is_rounding) return found(b);
     if (gb == ga) break;
     const double next = b - gb * (b - a) / (gb - ga);

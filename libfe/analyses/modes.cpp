@@ -23,7 +23,7 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int dense_after = 160;         ///< dofs: all modes at once are found faster than by discs
+constexpr int dense_after = 160;         ///< dofs: where one disc does not do, all modes at once
 constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones have no sense
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
 constexpr double rigid_share = 1e-5;     ///< of the first flexible omega^2: does not deform

@@ -14,6 +14,7 @@
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libbase/system/interruption.hpp"
 #include "libfe/eigen/pencil.hpp"
+#include "libfe/eigen/positive_factor.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {
@@ -27,10 +28,11 @@ constexpr int starts = 2;                ///< vectors at the beginning: isotropi
 constexpr int rounds = 5;  ///< powers of the inverse a fresh vector gets to show something
 constexpr double converged = 1e-10;  ///< residual over the size of an eigenvalue of the inverse
 constexpr double exhausted = 1e-13;  ///< of its length: what is left of a vector inside the basis
-constexpr double least_energy = 1e-10;  ///< of a sum of its terms: below minus this it is negative
-constexpr double no_energy = 1e-14;     ///< the same where it is none
-constexpr double rim = 1e-6;            ///< relative distance in which a disc does not end
-constexpr double real_axis = 1e-10;     ///< |Im| of an eigenvalue that is real, over its size
+constexpr double least_energy =
+    1e-10;                           ///< below minus this share of its terms an energy is negative
+constexpr double no_energy = 1e-14;  ///< below this share it is zero
+constexpr double rim = 1e-6;         ///< relative distance in which a disc does not end
+constexpr double real_axis = 1e-10;  ///< |Im| of an eigenvalue that is real, over its size
 
 template <class Scalar>
 using VecOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
@@ -59,8 +61,8 @@ struct ShiftedInverse {
 };
 
 /// The inner product of states: the energy q^T K q + q'^T M q', in which an operator without
-/// damping is normal, so that Ritz values lie among eigenvalues; without matrices the Euclidean
-/// one.
+/// damping is normal about zero (elsewhere K + s^2 M takes the place of K), so that values that
+/// have not converged do not stray; without matrices the Euclidean one.
 struct Energy {
   Sparse K, M;  ///< symmetric; K positive definite; M in units of p
 
@@ -89,9 +91,9 @@ class KrylovBasis {
 
   /// Number of vectors whose images are known.
   Eigen::Index size() const { return done_; }
-  bool is_full() const { return done_ >= most_; }
+  bool is_full() const { return done_ >= most_ || columns_ >= vectors_.cols(); }
   /// Whether fresh vectors can be followed beyond that.
-  bool has_room() const { return done_ < projected_.cols(); }
+  bool has_room() const { return done_ < projected_.cols() && columns_ < vectors_.cols(); }
   /// Whether all energies are those of a positive inertia: else nothing is known.
   bool is_sound() const { return is_sound_; }
   double effort() const { return static_cast<double>(done_) / static_cast<double>(most_); }
@@ -236,10 +238,11 @@ Eigen::Index next_size(Eigen::Index size, double radius, double wanted) {
   return std::max(size + 3, static_cast<Eigen::Index>(std::min(most, expected)));
 }
 
-/// The disc of an operator: grown until it is as wanted, or as far as it goes.
+/// The disc of an operator: grown until it is as wanted, or as far as it goes. Nothing where the
+/// inertia of the energy is not positive.
 template <class Scalar>
-DiscModes grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
-                const DiscSolver::WantedRadius& wanted, int most) {
+std::optional<DiscModes> grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
+                               const DiscSolver::WantedRadius& wanted, int most) {
   const auto n = op.M.rows();
   const Complex center = op.s;
   KrylovBasis<Scalar> basis(op, energy, 2 * n, most);
@@ -274,6 +277,7 @@ DiscModes grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
       next = next_size(basis.size(), look.radius, *radius);
     }
   }
+  if (!basis.is_sound()) return std::nullopt;
   DiscModes disc{center, look.radius, CVec(look.size()), CMat(n, look.size())};
   for (int i = 0; i < look.size(); ++i) {
     disc.lambda(i) = lambda[static_cast<std::size_t>(i)];
@@ -356,7 +360,10 @@ DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted, int mos
     if (s != 0.0) energy.K += (s * s) * symmetric_part(state.M);
     const bool is_factor_of_it = s == 0.0 && factor.is_positive();
     if (!is_factor_of_it && !is_supported(energy.K)) energy = {};
-    return grown<double>({state.M, state.D, solve, s, scale}, energy, wanted, most);
+    const ShiftedInverse<double> op{state.M, state.D, solve, s, scale};
+    auto disc = grown<double>(op, energy, wanted, most);
+    if (!disc) disc = grown<double>(op, {}, wanted, most);
+    return *std::move(disc);
   }
   auto& [pencil, factor] = state.complex_part();
   if (!factor.factorize(pencil.at(center))) return none;
@@ -365,8 +372,8 @@ DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted, int mos
     for (Eigen::Index j = 0; j < b.cols(); ++j) x.col(j) = lu.solve(b.col(j));
     return x;
   };
-  return grown<Complex>({pencil.M(), pencil.D(), solve, center, std::abs(center)}, {}, wanted,
-                        most);
+  return *grown<Complex>({pencil.M(), pencil.D(), solve, center, std::abs(center)}, {}, wanted,
+                         most);
 }
 
 }  // namespace whirl::inline fe

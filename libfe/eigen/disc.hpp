@@ -34,12 +34,12 @@ class DiscSolver {
  public:
   static constexpr int largest_basis = 100;  ///< vectors; beyond, more discs cost less
 
-  /// What is wanted of a disc, of which so much is known: its radius, infinite while that cannot be
-  /// said; nothing: the disc may stay as it is.
+  /// Tells the radius that is wanted of a disc, from what is known of the disc so far: infinite
+  /// while that cannot be said; nothing where the disc may stay as it is.
   ///
   /// @param radius  every eigenvalue nearer to the center is known [rad/s]
   /// @param lambda  these, nearest to the center first [rad/s]
-  /// @param effort  of the largest basis, the share that it took
+  /// @param effort  size of the basis over `most`; above 1 while a last fresh vector is followed
   using WantedRadius = std::function<std::optional<double>(
       double radius, std::span<const Complex> lambda, double effort)>;
 

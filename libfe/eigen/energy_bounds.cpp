@@ -6,6 +6,7 @@
 #include <random>
 
 #include "libbase/numerics/dense.hpp"
+#include "libfe/eigen/positive_factor.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {

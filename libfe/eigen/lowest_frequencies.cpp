@@ -17,6 +17,7 @@ namespace {
 constexpr int cells_up = 8;      ///< cells of the sector along Im lambda
 constexpr int usual_basis = 60;  ///< vectors of a disc that may be divided: large ones cost more
 constexpr double step = 2.0;     ///< of the top frequency where too few are found
+constexpr double equal = 1e-7;   ///< relative distance of equal eigenvalues
 constexpr double same = 1e-9;    ///< relative: a frequency that belongs to those below the top
 constexpr double beyond = 4.0;   ///< over the damping time: modes are overdamped above, and more
 constexpr double finest = 1e-4;  ///< size of a cell over its distance from zero
@@ -149,15 +150,23 @@ class Cover {
     bool is_first;  ///< from the first disc
   };
 
-  /// Takes what no earlier disc has.
+  /// Takes what no earlier disc has, and of equal eigenvalues those that an earlier one has missed.
   void add(const DiscModes& disc) {
+    const auto before = static_cast<std::ptrdiff_t>(found_.size());
     for (Eigen::Index i = 0; i < disc.lambda.size(); ++i) {
       const Complex lambda = disc.lambda(i);
-      const bool is_known =
+      if (lambda.imag() < 0.0) continue;
+      const auto is_equal = [&](Complex other) {
+        return std::abs(other - lambda) <= equal * std::abs(lambda);
+      };
+      const auto own = std::count_if(disc.lambda.begin(), disc.lambda.begin() + i + 1, is_equal);
+      const auto known = std::count_if(found_.begin(), found_.begin() + before,
+                                       [&](const Found& f) { return is_equal(f.lambda); });
+      const bool is_contained =
           std::any_of(discs_.begin(), discs_.end(),
                       [&](const DiscModes& earlier) { return earlier.contains(lambda); });
-      if (!is_known && lambda.imag() >= 0.0)
-        found_.push_back({lambda, disc.q.col(i), discs_.empty()});
+      const bool is_missed = known > 0 && known < own;
+      if (!is_contained || is_missed) found_.push_back({lambda, disc.q.col(i), discs_.empty()});
     }
     discs_.push_back({disc.center, disc.radius, CVec(0), CMat(0, 0)});
   }

@@ -10,6 +10,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
+#include "libfe/eigen/positive_factor.hpp"
 
 namespace whirl::inline fe {
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <memory>
-
 #include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline fe {
@@ -30,11 +27,6 @@ struct RealModes {
 /// @throws NumericalError  if M is singular, or a mode stays missing after retries
 /// @source Spectra; Sylvester's law of inertia
 RealModes lowest_real_modes(const Sparse& K, const Sparse& M, int count);
-
-/// Factors of a symmetric matrix, K = L D L^T.
-using Ldlt = Eigen::SimplicialLDLT<Sparse>;
-/// Those of a matrix that is positive definite to rounding; nothing: it is not.
-std::unique_ptr<Ldlt> positive_factor(const Sparse& K);
 
 /// Whether supports hold every freedom: K is positive definite to rounding.
 bool is_supported(const Sparse& K);

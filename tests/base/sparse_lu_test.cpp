@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace whirl::sparse_lu_test {
 
 constexpr double rounding = 1e-14;
@@ -26,6 +28,18 @@ TEST(SparseLu, OfASingularMatrixIsNotRegular) {
   EXPECT_FALSE(SparseLu(matrix(0.0, 0.0, 0.0, 3.0)).is_regular());
   EXPECT_FALSE(SparseLu(matrix(1.0, 2.0, 2.0, 4.0)).is_regular());
   EXPECT_FALSE(SparseLu{}.is_regular());
+}
+
+TEST(SparseLu, OfAMatrixThatIsNotFiniteIsNotRegular) {
+  for (const double x : {std::nan(""), HUGE_VAL}) {
+    EXPECT_FALSE(SparseLu(matrix(x, 1.0, 1.0, 3.0)).is_regular()) << x;
+    const CSparse regular = matrix(2.0, 1.0, 1.0, 3.0).cast<Complex>();
+    const CSparse other = matrix(x, 1.0, 1.0, 3.0).cast<Complex>();
+    ComplexSparseLu lu(regular);
+    EXPECT_FALSE(lu.factorize(other)) << x;
+    EXPECT_TRUE(lu.factorize(regular));
+    EXPECT_FALSE(lu.factorize(other)) << x;
+  }
 }
 
 // The pivots of the first matrix, on its diagonal, lose all digits of the second.

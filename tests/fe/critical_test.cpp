@@ -88,7 +88,7 @@ TEST(CriticalSpeeds, OfHigherOrdersAreTheClosedForm) {
 TEST(CriticalSpeeds, DampedOnesOfAJeffcottRotorAreTheClosedForm) {
   const test::Jeffcott jeffcott;
   const double w = jeffcott.omega();
-  for (const double zeta : {0.0, 0.1, 0.5, 1.5}) {
+  for (const double zeta : {0.0, 1e-4, 0.1, 0.5, 1.5}) {
     Structure s = jeffcott.structure();
     const double c = 2.0 * zeta * std::sqrt(jeffcott.k() * jeffcott.m);
     s.bearings.push_back(test::bearing(test::node(2), test::isotropic(0.0, c)));
@@ -109,7 +109,7 @@ TEST(CriticalSpeeds, DampedOnesOfAJeffcottRotorAreTheClosedForm) {
 
 // At a critical speed a mode of the rotor that spins with it has its frequency and its shape.
 TEST(CriticalSpeeds, AreFrequenciesOfTheRotorThatSpinsWithThem) {
-  constexpr double eigensolvers = 1e-8;  // relative; Arnoldi to 1e-11 in hundreds of dofs
+  constexpr double eigensolvers = 1e-8;  // relative; Arnoldi to 1e-10 in hundreds of dofs
   std::mt19937 random(8);
   for (int draw = 0; draw < 6; ++draw) {
     SCOPED_TRACE("draw " + std::to_string(draw));

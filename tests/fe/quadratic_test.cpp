@@ -23,10 +23,10 @@ namespace whirl::quadratic_test {
 
 using test::at;
 
-constexpr double oracle = 1e-8;     // relative; Arnoldi to 1e-11, QR loses some of a wide spectrum
+constexpr double oracle = 1e-8;     // relative; Arnoldi to 1e-10, QR loses some of a wide spectrum
 constexpr double backward = 1e-10;  // normwise backward error that is promised of modes
 constexpr double loosest = 1.05;    // a bound is 2 % beyond Lanczos' residual
-// of a disc: 1e-11 of the inverse's residual, which counts for more far from the center
+// of a disc: 1e-10 of the inverse's residual, which counts for more far from the center
 constexpr double unrefined = 1e-8;
 
 std::vector<Complex> ordered(const CVec& lambda) {

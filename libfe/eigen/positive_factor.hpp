@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <memory>
+
+#include "libbase/numerics/linalg.hpp"
+
+namespace whirl::inline fe {
+
+/// Factors of a symmetric matrix, K = L D L^T.
+using Ldlt = Eigen::SimplicialLDLT<Sparse>;
+/// Those of a matrix that is positive definite to rounding; nothing: it is not.
+std::unique_ptr<Ldlt> positive_factor(const Sparse& K);
+
+}  // namespace whirl::inline fe
