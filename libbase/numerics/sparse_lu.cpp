@@ -82,7 +82,8 @@ class KluFactors {
     return Klu<Scalar>::refactor(columns_.data(), rows_.data(), values, symbolic_, numeric_,
                                  &common_);
   }
-  /// Whether all pivots are numbers other than zero: of blocks of one row KLU says that only here.
+  /// Whether all pivots are numbers other than zero. KLU tells a zero in a block of one row only by
+  /// the condition.
   bool has_pivots() {
     return Klu<Scalar>::condition(symbolic_, numeric_, &common_) && common_.rcond > 0.0;
   }

@@ -39,23 +39,23 @@ using VecOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 template <class Scalar>
 using MatOf = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// (A - s I)^-1 of states (q, p = q' / scale).
+/// (A - s I)^-1 of the state (q, p = q' / scale).
 template <class Scalar>
 struct ShiftedInverse {
   const Sparse &M, &D;
-  std::function<MatOf<Scalar>(const MatOf<Scalar>&)> solve;  ///< (s^2 M + s D + K)^-1
+  std::function<VecOf<Scalar>(const VecOf<Scalar>&)> solve;  ///< (s^2 M + s D + K)^-1
   Scalar s;
   double scale;
 
-  MatOf<Scalar> operator()(const Eigen::Ref<const MatOf<Scalar>>& in) const {
+  VecOf<Scalar> operator()(const VecOf<Scalar>& in) const {
     const auto n = M.rows();
-    const auto q = in.topRows(n), p = in.bottomRows(n);
-    MatOf<Scalar> load = M * MatOf<Scalar>(scale * p + s * q);
+    const auto q = in.head(n), p = in.tail(n);
+    VecOf<Scalar> load = M * VecOf<Scalar>(scale * p + s * q);
     load += D * q;
-    const MatOf<Scalar> x = solve(load);
-    MatOf<Scalar> out(2 * n, in.cols());
-    out.topRows(n) = -x;
-    out.bottomRows(n) = (q - s * x) / scale;
+    const VecOf<Scalar> x = solve(load);
+    VecOf<Scalar> out(2 * n);
+    out.head(n) = -x;
+    out.tail(n) = (q - s * x) / scale;
     return out;
   }
 };
@@ -68,10 +68,10 @@ struct Energy {
 
   bool is_euclidean() const { return K.rows() == 0; }
   template <class Scalar>
-  MatOf<Scalar> weigh(const MatOf<Scalar>& states) const {
-    MatOf<Scalar> result(states.rows(), states.cols());
-    result.topRows(K.rows()).noalias() = K * states.topRows(K.rows());
-    result.bottomRows(K.rows()).noalias() = M * states.bottomRows(K.rows());
+  VecOf<Scalar> weigh(const VecOf<Scalar>& state) const {
+    VecOf<Scalar> result(state.size());
+    result.head(K.rows()).noalias() = K * state.head(K.rows());
+    result.tail(K.rows()).noalias() = M * state.tail(K.rows());
     return result;
   }
 };
@@ -103,7 +103,7 @@ class KrylovBasis {
   /// Adds a random direction; false if there is none left.
   bool add_fresh() {
     if (columns_ >= vectors_.rows() || columns_ >= vectors_.cols()) return false;
-    MatOf<Scalar> fresh(vectors_.rows(), 1);
+    VecOf<Scalar> fresh(vectors_.rows());
     std::normal_distribution<double> normal;
     for (Eigen::Index i = 0; i < fresh.size(); ++i) {
       if constexpr (std::is_same_v<Scalar, Complex>) {
@@ -118,7 +118,7 @@ class KrylovBasis {
 
   /// Adds the image of the next vector.
   void advance() {
-    MatOf<Scalar> image = op_(vectors_.col(done_++));
+    VecOf<Scalar> image = op_(vectors_.col(done_++));
     append(std::move(image), &projected_);
   }
   /// Adds the image of the newest vector, which leaves others waiting.
@@ -145,18 +145,18 @@ class KrylovBasis {
 
  private:
   /// Appends the part of v that is new; the other parts go into a column of `to`.
-  bool append(MatOf<Scalar> v, MatOf<Scalar>* to) {
+  bool append(VecOf<Scalar> v, MatOf<Scalar>* to) {
     const double before = v.norm();
     for (int twice = 0; twice < 2 && columns_ > 0; ++twice) {
-      const VecOf<Scalar> parts = duals().leftCols(columns_).adjoint() * v.col(0);
-      v.col(0).noalias() -= vectors_.leftCols(columns_) * parts;
+      const VecOf<Scalar> parts = duals().leftCols(columns_).adjoint() * v;
+      v.noalias() -= vectors_.leftCols(columns_) * parts;
       if (to) to->col(done_ - 1).head(columns_) += parts;
     }
     double left = v.norm();
     if (!(left > exhausted * before) || columns_ >= vectors_.cols()) return false;
     if (!energy_.is_euclidean()) {
-      const MatOf<Scalar> weighed = energy_.weigh(v);
-      const double square = std::real(weighed.col(0).dot(v.col(0)));
+      const VecOf<Scalar> weighed = energy_.weigh(v);
+      const double square = std::real(weighed.dot(v));
       const double size = weighed.cwiseProduct(v).cwiseAbs().sum();
       is_sound_ = is_sound_ && square > -least_energy * size;
       if (!(square > no_energy * size)) return false;  // motion of what has no inertia
@@ -295,7 +295,7 @@ class RealFactor {
   }
   bool is_positive() const { return ldlt_ != nullptr; }
   bool is_regular() const { return is_positive() || lu_.is_regular(); }
-  Mat solve(const Mat& b) const { return ldlt_ ? Mat(ldlt_->solve(b)) : lu_.solve(b); }
+  Vec solve(const Vec& b) const { return ldlt_ ? Vec(ldlt_->solve(b)) : Vec(lu_.solve(b)); }
 
  private:
   std::unique_ptr<Ldlt> ldlt_;
@@ -305,7 +305,7 @@ class RealFactor {
 /// A typical low frequency, by inverse iteration: velocities are measured in it.
 double low_frequency(const RealFactor& factor, const Sparse& M, const Sparse& K) {
   Vec v = Vec::Ones(M.rows());
-  for (int i = 0; i < 3; ++i) v = factor.solve(M * v).col(0).normalized();
+  for (int i = 0; i < 3; ++i) v = factor.solve(M * v).normalized();
   const double found = std::sqrt(std::abs(v.dot(K * v) / v.dot(M * v)));
   return std::isfinite(found) && found > 0.0 ? found : 1.0;
 }
@@ -355,7 +355,7 @@ DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted, int mos
     const RealFactor factor(s == 0.0 ? state.K : Sparse(s * s * state.M + s * state.D + state.K));
     if (!factor.is_regular()) return none;
     const double scale = s != 0.0 ? std::abs(s) : low_frequency(factor, state.M, state.K);
-    const auto solve = [&](const Mat& b) { return factor.solve(b); };
+    const auto solve = [&](const Vec& b) { return factor.solve(b); };
     Energy energy{symmetric_part(state.K), scale * scale * symmetric_part(state.M)};
     if (s != 0.0) energy.K += (s * s) * symmetric_part(state.M);
     const bool is_factor_of_it = s == 0.0 && factor.is_positive();
@@ -367,11 +367,7 @@ DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted, int mos
   }
   auto& [pencil, factor] = state.complex_part();
   if (!factor.factorize(pencil.at(center))) return none;
-  const auto solve = [&lu = factor](const CMat& b) {
-    CMat x(b.rows(), b.cols());
-    for (Eigen::Index j = 0; j < b.cols(); ++j) x.col(j) = lu.solve(b.col(j));
-    return x;
-  };
+  const auto solve = [&lu = factor](const CVec& b) { return lu.solve(b); };
   return *grown<Complex>({pencil.M(), pencil.D(), solve, center, std::abs(center)}, {}, wanted,
                          most);
 }

@@ -9,7 +9,7 @@ namespace whirl::inline fe {
 
 /// Factors of a symmetric matrix, K = L D L^T.
 using Ldlt = Eigen::SimplicialLDLT<Sparse>;
-/// Those of a matrix that is positive definite to rounding; nothing: it is not.
+/// Factors of a matrix that is positive definite to rounding; null for another matrix.
 std::unique_ptr<Ldlt> positive_factor(const Sparse& K);
 
 }  // namespace whirl::inline fe

@@ -233,7 +233,8 @@ Structure on_strong_dampers(int elements) {
           .bearings = {test::bearing(at(0.0), film), test::bearing(at(2.0), film)}};
 }
 
-// Of 1500 elements rounding keeps the equation of a damped one above its tolerance.
+// In a mesh of 1500 elements rounding keeps the equation of a damped critical speed above its
+// tolerance.
 TEST(CriticalSpeeds, DampedOnesOfAFineMeshAreThoseOfACoarseOne) {
   constexpr double mesh = 1e-5;  // relative: what elements leave out, and rounding
   const auto damped = [](int elements) {
