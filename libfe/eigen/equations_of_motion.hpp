@@ -8,7 +8,8 @@
 
 namespace whirl::inline fe {
 
-/// What one shaft adds to the equations of motion by its spin: ratio Omega (G q' + H q).
+/// What one shaft adds to the equations of motion by its spin: ratio Omega (G q' + H q), and
+/// ratio Omega' G q / 2 while the speed changes, see EquationsOfMotion::acceleration_stiffness.
 template <class Matrix>
 struct SpinPart {
   double ratio = 1.0;  ///< of the speed of this shaft to Omega
@@ -36,6 +37,13 @@ struct EquationsOfMotion {
   }
   /// C + Omega G.
   Matrix D() const { return C + Omega * G(); }
+  /// What goes with angular acceleration, Omega' times it beside the stiffness: G / 2, skew.
+  ///
+  /// Spin and tilt share the kinetic energy Omega q'^T G q / 2 where all sections turn by one
+  /// angle. Lagrange's equations make Omega G q' + Omega' G q / 2 of it. This is the moment of a
+  /// drive whose torque lies halfway between the axis at rest and the tilted one, as that of a
+  /// homokinetic joint does.
+  Matrix acceleration_stiffness() const { return 0.5 * G(); }
   /// K + Omega H.
   Matrix stiffness() const { return circulates() ? Matrix(K + Omega * H()) : K; }
 
