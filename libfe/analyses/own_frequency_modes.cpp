@@ -82,7 +82,7 @@ std::optional<PairAtFrequency> at_own_frequency(const SystemAtFrequency& system,
     if (i > 0 && gap >= 0.5 * least && least <= own_enough * best.omega) return best;
     if (gap < least) best = here;
     const double low = below ? below->omega : 0.0;
-    const double high = above ? above->omega : barrier;
+    const double high = std::min(above ? above->omega : barrier, barrier);
     if (!(next > low && next < high)) {
       next = std::isfinite(high) ? 0.5 * (low + high) : here.omega + here.gap();
     }
@@ -93,9 +93,8 @@ std::optional<PairAtFrequency> at_own_frequency(const SystemAtFrequency& system,
     const auto there = followed(system, here, next);
     if (!there || !(there->lambda.imag() > 0.0)) {
       if (next < here.omega) return std::nullopt;
-      barrier = next;
+      barrier = next;  // the next one is halfway to it
       here = below ? *below : here;
-      next = 0.5 * (here.omega + barrier);
       if (barrier - here.omega <= closest * barrier) return std::nullopt;
       continue;
     }

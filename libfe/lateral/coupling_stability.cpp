@@ -12,6 +12,7 @@
 #include "libfe/assembly/properties.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/lateral/inverse_couplings.hpp"
 #include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
@@ -43,7 +44,7 @@ class CoupledRotor {
   CoupledRotor(const Structure& structure, double Omega, const Station& at, int count)
       : structure_(structure), at_(at), Omega_(Omega), count_(count), assembler_(structure) {
     const System system = assembler_.at(Omega);
-    has_all_ = system.size() < dense_below;
+    has_all_ = system.size() < dense_below || count >= system.size();
     if (has_all_) count_ = std::max(count, system.size());
     modes_ = modes_of(assembler_);
     const auto slowest = std::find_if(modes_.oscillatory.begin(), modes_.oscillatory.end(),
@@ -136,38 +137,6 @@ class CoupledRotor {
   std::optional<DynamicStiffness> stiffness_{};
 };
 
-/// An eigenvalue s is that of a Q with
-///
-///   p^2 + b p + d = 0,   p = 1 / Q,   b = H_yx - H_xy,   d = det H(s),
-///
-/// where one of both p is real. They are followed over w, each by itself: without gyroscopics they
-/// are p and -p, and real at once.
-struct Inverses {
-  std::array<Complex, 2> p;
-
-  explicit Inverses(const Eigen::Matrix2cd& H) {
-    const Complex b = H(1, 0) - H(0, 1), d = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0);
-    const Complex root = std::sqrt(0.25 * b * b - d);
-    const Complex half = -0.5 * b;
-    const Complex large = std::abs(half + root) > std::abs(half - root) ? half + root : half - root;
-    p = {large, large == 0.0 ? large : d / large};
-  }
-  /// In the order of another pair.
-  Inverses as(const std::array<Complex, 2>& other) const {
-    Inverses turned = *this;
-    const double same = std::abs(p[0] - other[0]) + std::abs(p[1] - other[1]);
-    const double swapped = std::abs(p[0] - other[1]) + std::abs(p[1] - other[0]);
-    if (swapped < same) std::swap(turned.p[0], turned.p[1]);
-    return turned;
-  }
-  /// Whether it is clear which one is which of another pair.
-  bool is_like(const Inverses& other) const {
-    const double moved = std::max(std::abs(p[0] - other.p[0]), std::abs(p[1] - other.p[1]));
-    return moved <= 0.5 * std::min(std::abs(p[0] - p[1]), std::abs(other.p[0] - other.p[1]));
-  }
-  double size() const { return std::max(std::abs(p[0]), std::abs(p[1])); }
-};
-
 /// Where an eigenvalue is on the imaginary axis.
 struct Border {
   double Q, w;
@@ -197,7 +166,7 @@ class BorderScan {
   /// Every Q > 0 at the border that is not far above the least one, ascending.
   std::vector<Border> found() {
     double w = bottom_;
-    Inverses here = at(w);
+    InverseCouplings here = at(w);
     most_ = all_rounding / here.size();
     at_rest(here);
     for (int i = 0; i < most_steps && !is_over(w, here); ++i) {
@@ -211,11 +180,11 @@ class BorderScan {
   }
 
  private:
-  Inverses at(double w) { return Inverses(rotor_.receptance(w, tilt_)); }
+  InverseCouplings at(double w) { return InverseCouplings(rotor_.receptance(w, tilt_)); }
 
   /// Beyond all eigenvalues receptances fall: once they are too small for the least Q, no less
   /// follows.
-  bool is_over(double w, const Inverses& here) const {
+  bool is_over(double w, const InverseCouplings& here) const {
     if (w < top_) return false;
     return w > last_decades * top_ || least_ * here.size() < 1.0;
   }
@@ -227,8 +196,8 @@ class BorderScan {
   }
 
   /// From w to next, in halves where it is not clear what is between.
-  Inverses walk(double w, const Inverses& here, double next, int halvings) {
-    const Inverses there = at(next).as(here.p);
+  InverseCouplings walk(double w, const InverseCouplings& here, double next, int halvings) {
+    const InverseCouplings there = at(next).as(here.p);
     if (halvings < most_splits && (!there.is_like(here) || is_near(here, there, halvings))) {
       const double middle = 0.5 * (w + next);
       return walk(middle, walk(w, here, middle, halvings + 1), next, halvings + 1);
@@ -238,7 +207,7 @@ class BorderScan {
   }
 
   /// Whether one may have been real and positive twice on the way.
-  bool is_near(const Inverses& here, const Inverses& there, int halvings) const {
+  bool is_near(const InverseCouplings& here, const InverseCouplings& there, int halvings) const {
     constexpr int enough = 4;
     if (halvings >= enough) return false;
     for (const std::size_t k : {0, 1}) {
@@ -255,8 +224,8 @@ class BorderScan {
 
   /// Where one of them is real and positive between two frequencies. With dp / dQ < 0, the
   /// eigenvalue goes right where Im p falls over w.
-  void add_between(double w, const Inverses& here, double next, const Inverses& there,
-                   std::size_t k) {
+  void add_between(double w, const InverseCouplings& here, double next,
+                   const InverseCouplings& there, std::size_t k) {
     const Complex from = here.p[k], to = there.p[k];
     if (!(from.imag() * to.imag() < 0.0) || (from.real() <= 0.0 && to.real() <= 0.0)) return;
     const auto between = [&](double v) {
@@ -271,9 +240,9 @@ class BorderScan {
   }
 
   /// Real eigenvalues at zero: the rotor leaves its place without oscillating.
-  void at_rest(const Inverses& above) {
+  void at_rest(const InverseCouplings& above) {
     if (!rotor_.is_held()) return;
-    const Inverses rest = at(0.0).as(above.p);
+    const InverseCouplings rest = at(0.0).as(above.p);
     for (const std::size_t k : {0, 1}) {
       const Complex p = rest.p[k];
       if (std::abs(p.imag()) <= root_tol * std::abs(p)) {
@@ -283,7 +252,7 @@ class BorderScan {
   }
 
   /// How far the receptance stays much the same.
-  double step(double w, const Inverses& here) const {
+  double step(double w, const InverseCouplings& here) const {
     double distance = top_ + w;
     for (const Complex pole : poles_) {
       distance = std::min(distance, std::abs(Complex(tilt_ * w, w) - pole));
@@ -299,17 +268,6 @@ class BorderScan {
   double least_ = std::numeric_limits<double>::infinity();               ///< Q known so far
   double most_ = 0.0;  ///< Q beyond which all is rounding
 };
-
-/// The least Q above which a mode grows, between one where none does and one where one does.
-CoupledMode growth_between(const CoupledRotor& rotor, double none, double some) {
-  for (int i = 0; i < 100 && some - none > root_tol * some; ++i) {
-    const double middle = 0.5 * (none + some);
-    (rotor.at(middle).is_growing ? some : none) = middle;
-  }
-  CoupledMode mode = rotor.at(some).mode;
-  mode.log_decrement = 0.0;
-  return mode;
-}
 
 /// The least Q above which a mode grows; nothing: there is none.
 /// @param size  Q that is large [N/m]
@@ -349,18 +307,18 @@ CouplingStability coupling_stability(const Structure& structure, double Omega, c
       mass * std::norm(oscillatory.empty() ? overdamped.front() : oscillatory.front().lambda);
   found.at_limit = first_growth(rotor, size);
   found.at_anticipated = rotor.at(options.anticipated).mode;
-  double last = last_coupling(found, options.anticipated, size);
+  const double last = last_coupling(found, options.anticipated, size);
   for (int i = 0; i <= options.steps; ++i) {
     const double Q = last * i / options.steps;
     const LeastDamped least = rotor.at(Q);
     found.modes.push_back(least.mode);
-    // receptances tell the border to more digits than eigenvalues do
     if (rotor.has_all_modes() || !least.is_growing) continue;
+    // receptances tell the border to more digits than eigenvalues do
     if (found.at_limit && Q >= found.at_limit->coupling) continue;
-    // driven by a mode beyond the known ones
-    found.at_limit = growth_between(rotor, last * (i - 1) / options.steps, Q);
-    last = last_coupling(found, options.anticipated, size);
-    found.modes.clear(), i = -1;
+    // driven by a mode beyond the known ones, which the scan went past
+    CouplingOptions more = options;
+    more.count = 2 * options.count;
+    return coupling_stability(structure, Omega, at, more);
   }
   return found;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tests/support/rotors.hpp"
 
@@ -97,6 +98,37 @@ TEST(CouplingStability, OfFewModesIsThatOfMany) {
     EXPECT_NEAR(found.at_limit->coupling, all.at_limit->coupling, 1e-6 * all.at_limit->coupling)
         << count;
   }
+}
+
+/// Where Q acts, a small body that hardly damps, faster than the modes that are looked at; beside
+/// it one of unlike stiffness, and others, so that the rotor counts as large.
+Structure with_a_fast_body() {
+  Structure s;
+  s.bodies = {{.name = "fast", .m = 0.25, .spins = true}, {.name = "slow", .m = 1.0}};
+  s.bearings = {test::bearing(test::body("fast"), test::isotropic(4.0, 2e-3)),
+                test::bearing(test::body("slow"), test::orthotropic(0.5, 0.51, 0.1, 0.1))};
+  s.links = {test::connect(test::body("fast"), test::body("slow"), test::isotropic(0.5))};
+  for (int i = 0; i < 40; ++i) {
+    s.bodies.push_back({.name = "other " + std::to_string(i), .m = 1.0});
+    s.bearings.push_back(
+        test::bearing(test::body(s.bodies.back().name), test::isotropic(1e3 + i, 1.0)));
+  }
+  return s;
+}
+
+// A mode beyond those that are looked at, whose border lies between two steps along the axis, comes
+// to light on the curve of decrements, where Q takes a slower mode below the speed. The limit is
+// then that of all modes.
+TEST(CouplingStability, AFastModeThatLacksDampingIsNotLost) {
+  const Structure s = with_a_fast_body();
+  const double slow = complex_modes(assemble(s, 1.0), 2).oscillatory[1].frequency();
+  const double Omega = slow * (1.0 - 1e-5);
+  const CouplingStability all = coupling_stability(s, Omega, test::body("fast"), {.count = 1000});
+  ASSERT_TRUE(all.at_limit);
+  ASSERT_GT(all.at_limit->frequency, 3.0 * slow);
+  const CouplingStability found = coupling_stability(s, Omega, test::body("fast"), {.count = 2});
+  ASSERT_TRUE(found.at_limit);
+  EXPECT_NEAR(found.at_limit->coupling, all.at_limit->coupling, exact * all.at_limit->coupling);
 }
 
 // Without damping any cross-coupled stiffness is too much: nothing is borne, nothing is lost on the
