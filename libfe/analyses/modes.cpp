@@ -161,13 +161,15 @@ struct Knowledge {
 };
 
 /// The lowest modes by discs that cover where they can be, or nothing: if there are too many.
-std::optional<Modes> searched_modes(const System& system, const Knowledge& known, int count) {
+std::optional<Modes> searched_modes(const System& system, const Knowledge& known, int count,
+                                    Completeness completeness) {
   int rigid = 0;
   while (2 * (count + rigid) < system.size()) {
     FrequencySearch search{.count = count + rigid,
                            .slope = 1.0 / hardly_oscillating,
                            .center = shift_for(known.body),
-                           .bounds = known.bounds};
+                           .bounds = known.bounds,
+                           .is_proven = completeness == Completeness::proven};
     if (system.size() <= dense_after) search.most_discs = 1;
     QuadraticModes found;
     try {
@@ -186,11 +188,21 @@ std::optional<Modes> searched_modes(const System& system, const Knowledge& known
 
 /// The lowest modes of a large system.
 Modes sparse_modes(const System& system, const Knowledge& known, int count) {
-  if (std::optional<Modes> modes = searched_modes(system, known, count)) return *std::move(modes);
+  if (auto modes = searched_modes(system, known, count, Completeness::proven)) {
+    return *std::move(modes);
+  }
   // all at once takes longer for large systems, but does not depend on where modes are
   return sorted(
       dense_quadratic_modes(system.M, system.D(), system.stiffness(), shift_for(known.body)),
       system, known.body, count);
+}
+
+/// The first of them that are found, or nothing: if these are too few.
+std::optional<Modes> unproven_modes(const System& system, int count) {
+  auto modes = searched_modes(system, {.body = free_body(system)}, count, Completeness::unproven);
+  if (!modes || std::ssize(modes->oscillatory) < count) return std::nullopt;
+  modes->completeness = Completeness::unproven;
+  return modes;
 }
 
 Knowledge knowledge_of(const System& system) {
@@ -296,8 +308,11 @@ std::vector<Mode> reduced_modes(const ReducedSystem& reduced, int count) {
   return modes;
 }
 
-Modes complex_modes(const System& system, int count) {
+Modes complex_modes(const System& system, int count, Completeness completeness) {
   if (system.size() >= dense_below) {
+    if (completeness == Completeness::unproven) {
+      if (auto modes = unproven_modes(system, count)) return *std::move(modes);
+    }
     return sparse_modes(system, knowledge_of(system), count);
   }
   const FreeBody body = free_body(system);
@@ -305,9 +320,13 @@ Modes complex_modes(const System& system, int count) {
                 system, body, count);
 }
 
-Modes complex_modes(const Assembler& assembler, double Omega, int count) {
-  if (!assembler.depends_on_whirl()) return complex_modes(assembler.at(Omega), count);
-  return own_frequency_modes([&](double omega) { return assembler.at(Omega, omega); }, count);
+Modes complex_modes(const Assembler& assembler, double Omega, int count,
+                    Completeness completeness) {
+  if (!assembler.depends_on_whirl()) {
+    return complex_modes(assembler.at(Omega), count, completeness);
+  }
+  return own_frequency_modes([&](double omega) { return assembler.at(Omega, omega); }, count,
+                             completeness);
 }
 
 struct ModeFinder::State {

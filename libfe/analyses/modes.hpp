@@ -77,11 +77,17 @@ struct Mode {
   }
 };
 
+/// Whether a search for modes proves that it misses none, or takes those that it finds first.
+enum class Completeness { proven, unproven };
+
 struct Modes {
   std::vector<Mode> oscillatory;    ///< ascending frequency
   std::vector<Complex> overdamped;  ///< eigenvalues with |Im| < 0.2 |Re| (real ones too: divergent
                                     ///< or creeping), Im >= 0, nearest to zero first [rad/s]
   std::vector<Mode> rigid_body;     ///< modes of free systems that do not deform them
+  Completeness completeness = Completeness::proven;  ///< of the oscillatory ones
+
+  bool is_proven() const { return completeness == Completeness::proven; }
 };
 
 /// Complex modes of a system at its speed.
@@ -94,14 +100,18 @@ struct Modes {
 /// motions: real eigenvalues, and pairs with a damping ratio above 0.98, which only gyroscopics
 /// keep from being real.
 ///
-/// @param count  oscillatory modes wanted; fewer come back if there are fewer
+/// @param count         oscillatory modes wanted; fewer come back if there are fewer
+/// @param completeness  unproven: the first ones that the disc shows, in half the time; a mode may
+///                      be missing, most likely one of several that are equal
 /// @throws NumericalError  if an eigensolver fails
-Modes complex_modes(const System& system, int count);
+Modes complex_modes(const System& system, int count,
+                    Completeness completeness = Completeness::proven);
 
 /// Complex modes of a structure at a speed [rad/s]. Where coefficients depend on the frequency of a
 /// motion, each mode has those of its own (own_frequency_modes); shapes are those of
 /// assembler.at(Omega).
-Modes complex_modes(const Assembler& assembler, double Omega, int count);
+Modes complex_modes(const Assembler& assembler, double Omega, int count,
+                    Completeness completeness = Completeness::proven);
 
 /// The mode of an eigenpair of a system with these dofs.
 Mode mode_of(Complex lambda, const CVec& q, const DofMap& dofs);
@@ -131,7 +141,9 @@ struct ModesAtPoints : Modes {
         column("overdamped", &ModesAtPoints::overdamped, "rad/s", "overdamped eigenvalues")
             .as("overdamped")
             .only(in_json),
-        rows(&ModesAtPoints::rigid_body, "rigid_body").numbered("number", "mode").only(in_json)};
+        rows(&ModesAtPoints::rigid_body, "rigid_body").numbered("number", "mode").only(in_json),
+        column("proven", &ModesAtPoints::is_proven, "", "the search proved that it missed none")
+            .only(in_json)};
   }
 };
 

@@ -128,8 +128,8 @@ bool are_equal(const System& a, const System& b) {
 /// Own modes as they are found.
 class OwnModes {
  public:
-  OwnModes(const SystemAtFrequency& system, int count)
-      : system_(system), count_(count), wanted_(count + spare) {}
+  OwnModes(const SystemAtFrequency& system, int count, Completeness completeness)
+      : system_(system), count_(count), wanted_(count + spare), completeness_(completeness) {}
 
   Modes found() {
     Modes rest = look(0.0);
@@ -142,7 +142,7 @@ class OwnModes {
       }
     }
     sort();
-    Modes modes{{}, std::move(rest.overdamped), std::move(rest.rigid_body)};
+    Modes modes{{}, std::move(rest.overdamped), std::move(rest.rigid_body), rest.completeness};
     for (const Found& f : found_) {
       if (!oscillates(f.pair.lambda)) {
         modes.overdamped.push_back(f.pair.lambda);
@@ -173,7 +173,7 @@ class OwnModes {
     looks_.push_back(omega);
     const System here = system_(omega);
     dofs_ = here.dofs;
-    Modes modes = complex_modes(here, wanted_);
+    Modes modes = complex_modes(here, wanted_, completeness_);
     for (const Mode& mode : modes.oscillatory) {
       const double f = mode.frequency();
       if (omega > 0.0 && std::abs(f - omega) > window * omega) continue;
@@ -247,6 +247,7 @@ class OwnModes {
 
   const SystemAtFrequency& system_;
   int count_, wanted_;
+  Completeness completeness_;
   std::vector<Found> found_;
   std::vector<double> looks_;  ///< frequencies whose systems have been asked for all their modes
   DofMap dofs_;
@@ -254,8 +255,8 @@ class OwnModes {
 
 }  // namespace
 
-Modes own_frequency_modes(const SystemAtFrequency& system, int count) {
-  return OwnModes(system, count).found();
+Modes own_frequency_modes(const SystemAtFrequency& system, int count, Completeness completeness) {
+  return OwnModes(system, count, completeness).found();
 }
 
 }  // namespace whirl::inline fe

@@ -19,8 +19,10 @@ using SystemAtFrequency = std::function<System(double omega)>;
 /// there; none is there twice. What does not oscillate, and rigid-body motions, are those of w = 0.
 /// A table in which stiffness rises faster than inertia can have modes in any number.
 ///
-/// @param count  oscillatory modes wanted; fewer come back if there are fewer
+/// @param count         oscillatory modes wanted; fewer come back if there are fewer
+/// @param completeness  of the modes at each frequency that is looked at
 /// @throws NumericalError  if an eigensolver fails
-Modes own_frequency_modes(const SystemAtFrequency& system, int count);
+Modes own_frequency_modes(const SystemAtFrequency& system, int count,
+                          Completeness completeness = Completeness::proven);
 
 }  // namespace whirl::inline fe

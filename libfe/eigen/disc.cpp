@@ -22,7 +22,7 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr int first_look = 18;           ///< vectors before eigenvalues are computed first
-constexpr double growth = 1.3;           ///< of the basis from look to look, at most
+constexpr double most_growth = 1.3;      ///< of the basis from look to look
 constexpr double margin_of_size = 1.05;  ///< of the basis that a radius is expected to take
 constexpr int starts = 2;                ///< vectors at the beginning: isotropic rotors have pairs
 constexpr int rounds = 5;  ///< powers of the inverse a fresh vector gets to show something
@@ -233,7 +233,7 @@ Look look_at(const KrylovBasis<Scalar>& basis) {
 /// The size at which to look next. Frequencies of a beam, and so the radius, grow with the square
 /// of their number.
 Eigen::Index next_size(Eigen::Index size, double radius, double wanted) {
-  const double most = growth * static_cast<double>(size);
+  const double most = most_growth * static_cast<double>(size);
   const double expected = margin_of_size * static_cast<double>(size) * std::sqrt(wanted / radius);
   return std::max(size + 3, static_cast<Eigen::Index>(std::min(most, expected)));
 }
@@ -242,10 +242,11 @@ Eigen::Index next_size(Eigen::Index size, double radius, double wanted) {
 /// inertia of the energy is not positive.
 template <class Scalar>
 std::optional<DiscModes> grown(const ShiftedInverse<Scalar>& op, const Energy& energy,
-                               const DiscSolver::WantedRadius& wanted, int most) {
+                               const DiscSolver::WantedRadius& wanted,
+                               const DiscSolver::Growth& growth) {
   const auto n = op.M.rows();
   const Complex center = op.s;
-  KrylovBasis<Scalar> basis(op, energy, 2 * n, most);
+  KrylovBasis<Scalar> basis(op, energy, 2 * n, growth.most);
   for (int i = 0; i < starts; ++i) basis.add_fresh();
   Look look;
   Look before;  // a fresh vector joined
@@ -263,7 +264,8 @@ std::optional<DiscModes> grown(const ShiftedInverse<Scalar>& op, const Energy& e
     }
     const std::optional<double> radius = wanted(look.radius, lambda, basis.effort());
     const bool is_enough = !radius || look.radius >= *radius;
-    const bool is_confirmed = before.radius > 0.0 && look.within(before.radius) == before.size();
+    const bool is_confirmed = !growth.is_confirmed ||
+                              (before.radius > 0.0 && look.within(before.radius) == before.size());
     if ((is_enough && is_confirmed) || is_last || !basis.is_sound()) break;
     if (is_enough || basis.is_full() || basis.is_invariant()) {
       is_last = basis.is_full();
@@ -338,16 +340,17 @@ DiscSolver::~DiscSolver() = default;
 DiscSolver::DiscSolver(DiscSolver&&) noexcept = default;
 DiscSolver& DiscSolver::operator=(DiscSolver&&) noexcept = default;
 
-DiscModes DiscSolver::around(Complex center, double radius, int count, int most) const {
+DiscModes DiscSolver::around(Complex center, double radius, int count, const Growth& growth) const {
   return around(
       center,
       [&](double, std::span<const Complex> lambda, double) {
         return std::optional(std::ssize(lambda) >= count ? 0.0 : radius);
       },
-      most);
+      growth);
 }
 
-DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted, int most) const {
+DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted,
+                             const Growth& growth) const {
   State& state = *state_;
   const DiscModes none{center, 0.0, CVec(0), CMat(state.M.rows(), 0)};
   if (center.imag() == 0.0) {
@@ -361,15 +364,15 @@ DiscModes DiscSolver::around(Complex center, const WantedRadius& wanted, int mos
     const bool is_factor_of_it = s == 0.0 && factor.is_positive();
     if (!is_factor_of_it && !is_supported(energy.K)) energy = {};
     const ShiftedInverse<double> op{state.M, state.D, solve, s, scale};
-    auto disc = grown<double>(op, energy, wanted, most);
-    if (!disc) disc = grown<double>(op, {}, wanted, most);
+    auto disc = grown<double>(op, energy, wanted, growth);
+    if (!disc) disc = grown<double>(op, {}, wanted, growth);
     return *std::move(disc);
   }
   auto& [pencil, factor] = state.complex_part();
   if (!factor.factorize(pencil.at(center))) return none;
   const auto solve = [&lu = factor](const CVec& b) { return lu.solve(b); };
   return *grown<Complex>({pencil.M(), pencil.D(), solve, center, std::abs(center)}, {}, wanted,
-                         most);
+                         growth);
 }
 
 }  // namespace whirl::inline fe

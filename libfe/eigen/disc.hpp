@@ -34,12 +34,18 @@ class DiscSolver {
  public:
   static constexpr int largest_basis = 100;  ///< vectors; beyond, more discs cost less
 
+  struct Growth {
+    int most = largest_basis;  ///< vectors of the basis
+    bool is_confirmed = true;  ///< a last fresh vector shows whether something was missed
+  };
+
   /// Tells the radius that is wanted of a disc, from what is known of the disc so far: infinite
   /// while that cannot be said; nothing where the disc may stay as it is.
   ///
   /// @param radius  every eigenvalue nearer to the center is known [rad/s]
   /// @param lambda  these, nearest to the center first [rad/s]
-  /// @param effort  size of the basis over `most`; above 1 while a last fresh vector is followed
+  /// @param effort  size of the basis over `Growth::most`; above 1 while a last fresh vector is
+  /// followed
   using WantedRadius = std::function<std::optional<double>(
       double radius, std::span<const Complex> lambda, double effort)>;
 
@@ -50,11 +56,15 @@ class DiscSolver {
 
   /// The disc grows until it has this radius, or holds so many eigenvalues, or the basis is at its
   /// largest; its radius is then what was reached, zero if the matrix is singular at the center.
-  ///
-  /// @param most  vectors of the basis
-  DiscModes around(Complex center, double radius, int count, int most = largest_basis) const;
+  DiscModes around(Complex center, double radius, int count) const {
+    return around(center, radius, count, {});
+  }
+  DiscModes around(Complex center, double radius, int count, const Growth& growth) const;
   /// The same until it has the radius that is wanted.
-  DiscModes around(Complex center, const WantedRadius& wanted, int most = largest_basis) const;
+  DiscModes around(Complex center, const WantedRadius& wanted) const {
+    return around(center, wanted, {});
+  }
+  DiscModes around(Complex center, const WantedRadius& wanted, const Growth& growth) const;
 
  private:
   struct State;

@@ -86,6 +86,15 @@ double reach_of_sector(double center, double top, const FrequencySearch& search)
 /// the square of their number.
 DiscModes first_disc(const DiscSolver& solver, const FrequencySearch& search) {
   const auto count = static_cast<std::size_t>(search.count);
+  if (!search.is_proven) {
+    return solver.around(
+        search.center,
+        [&](double, std::span<const Complex> lambda, double) -> std::optional<double> {
+          const bool is_enough = frequencies_of(lambda, search.slope).size() >= count;
+          return is_enough ? 0.0 : std::numeric_limits<double>::infinity();
+        },
+        {.is_confirmed = false});
+  }
   return solver.around(
       search.center,
       [&](double radius, std::span<const Complex> lambda, double effort) -> std::optional<double> {
@@ -209,7 +218,7 @@ class Cover {
     if (static_cast<int>(discs_.size()) >= search_.most_discs) {
       throw NumericalError("the damped frequencies cannot be told apart from overdamped motions");
     }
-    const DiscModes disc = solver_.around(center, radius, any, most);
+    const DiscModes disc = solver_.around(center, radius, any, {.most = most});
     add(disc);
     return disc.radius >= radius;
   }
@@ -249,7 +258,7 @@ QuadraticModes lowest_frequencies(const Sparse& M, const Sparse& D, const Sparse
   for (;;) {
     std::vector<double> frequencies = cover.frequencies();
     if (frequencies.size() >= wanted) top = frequencies[wanted - 1] * (1.0 + same);
-    if (!std::isfinite(top)) return cover.result(top);
+    if (!std::isfinite(top) || !search.is_proven) return cover.result(top);
     cover.extend(top);
     frequencies = cover.frequencies();
     std::erase_if(frequencies, [&](double w) { return w > top; });

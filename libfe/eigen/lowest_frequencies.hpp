@@ -6,11 +6,12 @@
 namespace whirl::inline fe {
 
 struct FrequencySearch {
-  int count = 0;         ///< eigenvalues wanted in the sector
-  double slope = 5.0;    ///< the sector is |Re lambda| < slope * Im lambda
-  double center = 0.0;   ///< of the first disc, on the real axis, where K + s D + s^2 M is regular
-  EnergyBounds bounds;   ///< leave out where no eigenvalue can be
-  int most_discs = 400;  ///< before the search gives up
+  int count = 0;          ///< eigenvalues wanted in the sector
+  double slope = 5.0;     ///< the sector is |Re lambda| < slope * Im lambda
+  double center = 0.0;    ///< of the first disc, on the real axis, where K + s D + s^2 M is regular
+  EnergyBounds bounds;    ///< leave out where no eigenvalue can be
+  int most_discs = 400;   ///< before the search gives up
+  bool is_proven = true;  ///< else the first disc that holds so many is the answer
 };
 
 /// The eigenpairs of lowest Im lambda within a sector about the imaginary axis, however many others

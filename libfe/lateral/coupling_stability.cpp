@@ -300,7 +300,8 @@ CouplingStability coupling_stability(const Structure& structure, double Omega, c
                                      const CouplingOptions& options) {
   CouplingStability found;
   CoupledRotor rotor(structure, Omega, at, options.count);
-  const auto& [oscillatory, overdamped, rigid] = rotor.modes();
+  const std::vector<Mode>& oscillatory = rotor.modes().oscillatory;
+  const std::vector<Complex>& overdamped = rotor.modes().overdamped;
   if (oscillatory.empty() && overdamped.empty()) return found;
   const double mass = rotor_properties(structure, make_mesh(structure)).mass;
   const double size =

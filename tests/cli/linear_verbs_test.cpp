@@ -236,6 +236,25 @@ TEST_F(Linear, Modes) {
   EXPECT_TRUE(has(text, "954.9") && has(text, "15.91")) << text;
 }
 
+// Of a large rotor the first modes that are found, without the proof that none is missed, which the
+// answer says. A small rotor has all its modes at once.
+TEST_F(Linear, ModesWithoutProof) {
+  const std::string shaft = WHIRL_SOURCE_DIR "/bench/instructions/shaft.toml";
+  const json proven = result({"modes", shaft}), found = result({"modes", shaft, "--unproven"});
+  EXPECT_EQ(proven["proven"], true);
+  EXPECT_EQ(found["proven"], false);
+  ASSERT_EQ(found["modes"].size(), proven["modes"].size());
+  for (std::size_t i = 0; i < found["modes"].size(); ++i) {
+    const double expected = proven["modes"][i]["frequency_rpm"];
+    EXPECT_NEAR(found["modes"][i]["frequency_rpm"], expected, 1e-8 * expected);
+  }
+  EXPECT_TRUE(has(whirl({"modes", shaft, "--unproven"}).out, "a mode may be missing"));
+  EXPECT_EQ(result({"modes", "rotor.toml", "--unproven"})["proven"], true);
+  EXPECT_TRUE(
+      has(whirl({"modes", shaft, "--unproven", "--over", "operation.speed=1000,2000rpm"}).err,
+          "--unproven: does not go with --over"));
+}
+
 // c = 4 sqrt(k m): lambda = -omega (2 +- sqrt(3)), both real, in x and in y
 TEST_F(Linear, ModesThatDoNotOscillateAreRealRoots) {
   const json r = result({"modes", "rotor.toml", "--set", "bearing.shaft.damping=800"});
