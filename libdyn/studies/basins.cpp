@@ -132,7 +132,7 @@ std::vector<int> BasinsResult::starts() const {
 }
 
 ColumnSizes BasinsResult::sizes() const {
-  return {{"exponents", system.states},
+  return {{"exponents", system.exponents()},
           {"full", system.dofs},
           {"sections", sections},
           {"states", system.states}};
@@ -182,7 +182,7 @@ BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
   options.classify.sections = options.classify.longest_period;
   BasinsResult result = std::move(earlier);
   const auto first = models.member(options.grid.values_at(0)).scene;
-  result.system = study_system(*first);
+  result.system = study_system(*first, options.classify);
   result.is_random = options.is_random();
   result.sections = options.classify.sections;
   result.points.resize(options.points());

@@ -46,11 +46,12 @@ ClassifiedMotion classified(const Classification& found) {
   return motion;
 }
 
-StudySystem study_system(const Scene& scene) {
+StudySystem study_system(const Scene& scene, const ClassifyOptions& options) {
   StudySystem system{
       .contacts = std::vector<std::string>(static_cast<std::size_t>(scene.contacts.owners())),
       .states = scene.contacts.size(),
-      .dofs = scene.reduced.dofs.T.rows()};
+      .dofs = scene.reduced.dofs.T.rows(),
+      .most_exponents = options.most_exponents};
   for (const ReducedContact& c : scene.contacts.contacts()) {
     system.contacts[static_cast<std::size_t>(c.owner)] = c.name;
   }

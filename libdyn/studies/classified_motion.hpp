@@ -85,10 +85,15 @@ ClassifiedMotion classified(const Classification& found);
 /// What all motions of a study have in common.
 struct StudySystem {
   std::vector<std::string> contacts{};  ///< names
-  Eigen::Index states = 0;              ///< coordinates and velocities; there are as many exponents
+  Eigen::Index states = 0;              ///< coordinates and velocities
   Eigen::Index dofs = 0;                ///< of all points, see FullState
+  int most_exponents = 0;               ///< as ClassifyOptions has it
+
+  Eigen::Index exponents() const {
+    return ClassifyOptions{.most_exponents = most_exponents}.exponents_of(states);
+  }
 };
-StudySystem study_system(const Scene& scene);
+StudySystem study_system(const Scene& scene, const ClassifyOptions& options);
 
 /// Column of the names of the contacts of a study.
 template <class Result>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
@@ -27,8 +28,10 @@ constexpr double later_search = 1.5;  ///< times those of the search before
 constexpr Eigen::Index most_dimension = 400;  ///< sections that their dimension is taken from
 /// Change of averages over sections that a motion may have which has settled.
 constexpr double settled_change = 0.02;
-constexpr long most_load_periods = 8;    ///< of loads, that a motion may take to repeat
-constexpr double most_repeating = 4000;  ///< revolutions, likewise
+constexpr long fewest_averaged = 48;         ///< revolutions, before exponents may be known well
+constexpr long averaged_between_looks = 16;  ///< revolutions
+constexpr long most_load_periods = 8;        ///< of loads, that a motion may take to repeat
+constexpr double most_repeating = 4000;      ///< revolutions, likewise
 constexpr long most_flight =
     1'000'000'000;  ///< revolutions that a motion is followed in closed form
 
@@ -94,12 +97,20 @@ class BatchClassifier {
   }
 
   void average() {
-    const long averaged = std::min(options_.revolutions, options_.exponents);
-    std::vector<Trajectory> all =
-        go(averaged, {.sections = true, .measures = true, .exponents = true, .growths = true});
+    std::vector<Trajectory> all = go(std::min(options_.revolutions, options_.exponents),
+                                     {.sections = true,
+                                      .measures = true,
+                                      .exponents = true,
+                                      .most_exponents = options_.most_exponents,
+                                      .growths = true,
+                                      .is_enough = knows_enough()});
     const std::vector<ClassifyCandidate*> before = open_;
+    std::vector<long> left;
+    for (const Trajectory& t : all) {
+      left.push_back(options_.revolutions - std::ssize(t.sections) / t.system->size());
+    }
     const std::vector<Trajectory> rest =
-        go(options_.revolutions - averaged, {.sections = options_.sections > 0, .measures = true});
+        go(left, {.sections = options_.sections > 0, .measures = true});
     for (std::size_t i = 0, j = 0; i < before.size(); ++i) {
       if (j == open_.size() || before[i] != open_[j]) continue;  // it failed meanwhile
       if (j != i) all[j] = std::move(all[i]);
@@ -125,26 +136,47 @@ class BatchClassifier {
 
  private:
   bool by_steps() const { return options_.rk4_steps > 0; }
+  Eigen::Index exponents_of(const ContactSystem& system) const {
+    return options_.exponents_of(system.size());
+  }
 
   std::function<bool(long)> watch(bool counts) const {
     if (!options_.watch) return {};
     return [this, counts](long done) { return options_.watch(done_ + (counts ? done : 0)); };
   }
 
+  /// Whether a motion is chaotic for sure, and its largest exponent as well known as asked for.
+  std::function<bool(const Trajectory&)> knows_enough() const {
+    if (options_.resolution == 0.0) return {};
+    return [this](const Trajectory& t) {
+      const Eigen::Index count = exponents_of(*t.system);
+      const Eigen::Index revolutions = std::ssize(t.growths) / count;
+      if (revolutions < fewest_averaged || revolutions % averaged_between_looks != 0) return false;
+      const auto found =
+          estimate_exponents(Eigen::Map<const Mat>(t.growths.data(), count, revolutions));
+      return found.resolution <= options_.resolution && found.exponents(0) > found.resolution;
+    };
+  }
+
   /// Moves all open motions on; those that fail or are stopped are open no longer.
-  std::vector<Trajectory> go(long revolutions, BatchOptions how) {
+  std::vector<Trajectory> go(long revolutions, const BatchOptions& how) {
+    return go(std::vector<long>(open_.size(), revolutions), how);
+  }
+  /// The same by a number of revolutions for each.
+  std::vector<Trajectory> go(const std::vector<long>& revolutions, BatchOptions how) {
     how.tolerance = options_.tolerance;
     how.threads = 1;
     how.watch = watch(true);
     std::vector<Trajectory> all;
     std::vector<long> first;
-    for (ClassifyCandidate* s : open_) {
-      first.push_back(s->found.end.revolution);
-      all.push_back(
-          {.system = s->system, .state = std::move(s->found.end), .revolutions = revolutions});
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      Classification& found = open_[i]->found;
+      first.push_back(found.end.revolution);
+      all.push_back({.system = open_[i]->system,
+                     .state = std::move(found.end),
+                     .revolutions = revolutions[i]});
     }
-    if (revolutions > 0 && by_steps()) integrate_stepped(all, how, options_.rk4_steps);
-    if (revolutions > 0 && !by_steps()) integrate_mixed(all, how);
+    move(all, how);
     std::vector<Trajectory> good;
     std::vector<ClassifyCandidate*> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -160,9 +192,23 @@ class BatchClassifier {
       open.push_back(open_[i]);
       good.push_back(std::move(all[i]));
     }
-    done_ += revolutions * static_cast<long>(open_.size());
+    done_ += std::accumulate(revolutions.begin(), revolutions.end(), 0L);
     open_ = std::move(open);
     return good;
+  }
+
+  /// Integrates all that have revolutions to go.
+  void move(std::vector<Trajectory>& all, const BatchOptions& how) const {
+    std::vector<Trajectory> moving;
+    for (Trajectory& t : all) {
+      if (t.revolutions > 0) moving.push_back(std::move(t));
+    }
+    if (moving.empty()) return;
+    by_steps() ? integrate_stepped(moving, how, options_.rk4_steps) : integrate_mixed(moving, how);
+    auto next = moving.begin();
+    for (Trajectory& t : all) {
+      if (t.revolutions > 0) t = std::move(*next++);
+    }
   }
 
   /// Adds what a trajectory did after another one.
@@ -197,8 +243,8 @@ class BatchClassifier {
     Classification& c = s.found;
     c.revolutions = options_.revolutions;
     take_measures(t, c);
-    const int size = s.system->size();
-    const Eigen::Map<const Mat> growths(t.growths.data(), size, std::ssize(t.growths) / size);
+    const Eigen::Index size = s.system->size(), count = t.exponents.size();
+    const Eigen::Map<const Mat> growths(t.growths.data(), count, std::ssize(t.growths) / count);
     const ExponentEstimate estimate = estimate_exponents(growths);
     c.exponents = estimate.exponents;
     c.zero = estimate.zero;
@@ -345,7 +391,7 @@ class BatchClassifier {
       Classification& found = candidates[i].of->found;
       found.end = orbits[i].state;
       found.period = candidates[i].period;
-      found.exponents = *candidates[i].exponents;
+      found.exponents = candidates[i].exponents->head(exponents_of(*candidates[i].of->system));
       found.is_free = candidates[i].is_free;
       found.residual = found.is_free
                            ? distance(*candidates[i].of->system, found.end.y, candidates[i].y)

@@ -1,6 +1,7 @@
 #pragma once
 /// The kind of a steady motion: what its tangents and its sections say together.
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -31,9 +32,13 @@ constexpr auto choices(MotionKind) {
 }
 
 struct ClassifyOptions {
-  long discard = 500;        ///< revolutions before, for the transient, at most
-  long revolutions = 1000;   ///< beyond the transient, over which contacts are measured
-  long exponents = 1000;     ///< of these, over which exponents are averaged, at most
+  long discard = 500;       ///< revolutions before, for the transient, at most
+  long revolutions = 1000;  ///< beyond the transient, over which contacts are measured
+  long exponents = 1000;    ///< of these, over which exponents are averaged, at most
+  int most_exponents = 0;   ///< the largest ones, of which two tell every kind; 0: all
+  /// Exponents are averaged no longer once the largest is known to this and above zero
+  /// [1/revolution]; 0: over all revolutions.
+  double resolution = 0.0;
   double tolerance = 1e-10;  ///< of a step, displacements by the length scale
   /// Longest period that is looked for [revolutions]; the period of the forces, too, if it is
   /// longer.
@@ -46,6 +51,11 @@ struct ClassifyOptions {
   Eigen::Index path = 0;  ///< at how many numbers of revolutions exponents are told at most
   /// Called now and then with the revolutions done by all motions together; false: stop.
   std::function<bool(long)> watch;
+
+  /// Exponents of a motion with so many states.
+  Eigen::Index exponents_of(Eigen::Index states) const {
+    return most_exponents > 0 ? std::min<Eigen::Index>(states, most_exponents) : states;
+  }
 };
 
 /// What a motion becomes.
@@ -57,8 +67,8 @@ struct Classification {
   /// motion repeats, in most cases no whole number of revolutions [s]; 0: not looked for, or not
   /// found.
   double period_time = 0.0;
-  /// All Lyapunov exponents per revolution, descending. Exponents of a proven periodic motion are
-  /// those of its Floquet multipliers, others are means.
+  /// Lyapunov exponents per revolution, descending, as many as asked for. Exponents of a proven
+  /// periodic motion are those of its Floquet multipliers, others are means.
   Vec exponents;
   ExponentPath path{};     ///< how exponents settled, if asked for; empty if proven
   bool is_proven = false;  ///< periodic: the orbit was found, and it attracts

@@ -15,7 +15,7 @@ constexpr std::size_t most_points = 256;  ///< in the lanes of one batch
 MapResult map(const StudyModels& models, const MapOptions& options,
               const Monitor<MapResult>& monitor, MapResult earlier) {
   MapResult result = std::move(earlier);
-  result.system = study_system(*models.member(options.grid.values_at(0)).scene);
+  result.system = study_system(*models.member(options.grid.values_at(0)).scene, options.classify);
   result.points.resize(options.grid.points());
   const ClassifyOptions classify = stopped_by(monitor.stop_asked(), options.classify);
   PointWork<ClassifiedMotion> work{

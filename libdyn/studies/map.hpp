@@ -23,7 +23,7 @@ struct MapResult {
   PointRows<ClassifiedMotion> points{};  ///< in the order of the grid
 
   /// Sizes of the dimensions of its columns that no other column has.
-  ColumnSizes sizes() const { return {{"exponents", system.states}}; }
+  ColumnSizes sizes() const { return {{"exponents", system.exponents()}}; }
   static constexpr auto columns() {
     return ColumnList{contact_names<MapResult>(), rows(&MapResult::points, "point")};
   }

@@ -14,11 +14,12 @@ namespace {
 /// Copies of a motion near it, and how they grow apart.
 class Copies {
  public:
-  Copies(const ContactSystem& system, double apart)
+  /// @param count  of them, one for each exponent
+  Copies(const ContactSystem& system, double apart, Eigen::Index count)
       : system_(system),
         length_(apart * system.state_scale()),
-        directions_(Mat::Identity(system.size(), system.size())),
-        growth_(Vec::Zero(system.size())) {}
+        directions_(Mat::Identity(system.size(), count)),
+        growth_(Vec::Zero(count)) {}
 
   /// As they are at the start of a revolution.
   void begin(const MotionState& motion) {
@@ -43,7 +44,7 @@ class Copies {
       apart.col(static_cast<Eigen::Index>(i)) = (all_[i].state.y - end.y).cwiseQuotient(length_);
     }
     const Eigen::HouseholderQR<Mat> qr(apart);
-    directions_ = qr.householderQ();
+    directions_ = qr.householderQ() * Mat::Identity(apart.rows(), apart.cols());
     growth_ += qr.matrixQR().diagonal().cwiseAbs().array().log().matrix();
     return true;
   }
@@ -86,7 +87,8 @@ void integrate_one(Trajectory& t, const BatchOptions& options, long steps, doubl
       return true;
     };
   }
-  Copies copies(system, apart);
+  const int most = options.most_exponents;
+  Copies copies(system, apart, most > 0 ? std::min(most, system.size()) : system.size());
   long done = 0;
   while (done < t.revolutions && t.outcome == Outcome::reached_end) {
     if (options.exponents) copies.begin(t.state);
@@ -101,6 +103,7 @@ void integrate_one(Trajectory& t, const BatchOptions& options, long steps, doubl
     if (options.sections) t.sections.insert(t.sections.end(), y.begin(), y.end());
     if (options.growths) t.growths.insert(t.growths.end(), growth.begin(), growth.end());
     if (!goes_on()) t.outcome = Outcome::stopped_by_observer;
+    if (options.exponents && options.is_enough && options.is_enough(t)) break;
   }
   const double time = system.period() * static_cast<double>(done);
   if (options.measures) t.contacts = times_of(meter, time);

@@ -152,7 +152,7 @@ Vec SweepResult::sectors() const {
 }
 
 ColumnSizes SweepResult::sizes() const {
-  return {{"exponents", system.states}, {"full", system.dofs}, {"sections", sections}};
+  return {{"exponents", system.exponents()}, {"full", system.dofs}, {"sections", sections}};
 }
 
 Vec SweepResult::probe_orders() const {
@@ -238,7 +238,7 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
   options.classify = stopped_by(monitor.stop_asked(), wanted.classify);
   SweepResult result = std::move(earlier);
   const StudyMember first = models.member({options.values.data(), 1});
-  result.system = study_system(*first.scene);
+  result.system = study_system(*first.scene, options.classify);
   result.probes = ProbeLabels(first.scene->assembler.structure().probes);
   result.start = options.start;
   result.sections = options.classify.sections;

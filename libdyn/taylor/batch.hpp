@@ -25,11 +25,11 @@ struct Trajectory {
   std::vector<double> sections;        ///< states at the ends of revolutions, if asked for
   std::vector<ContactTimes> contacts;  ///< of all revolutions, if asked for
   Vec exponents;                       ///< Lyapunov exponents, descending, if asked for [1/s]
-  /// Logarithms of what the columns of tangents have grown by at the ends of revolutions, 2 n after
-  /// 2 n, if asked for; the last ones over the time are the exponents, before they are sorted.
+  /// Logarithms of what the columns of tangents have grown by at the ends of revolutions, as many
+  /// each time as there are exponents, if asked for; the last ones over the time are the exponents, before they are sorted.
   std::vector<double> growths;
   Mat tangent;  ///< derivative of the end by the start, if asked for
-  /// Mean divergence of the flow, with exponents or tangent [1/s]: the sum of all exponents, and
+  /// Mean divergence of the flow, with exponents or tangent [1/s]: the sum of all 2 n exponents, and
   /// over the time the logarithm of the tangent's determinant. Not with sticking, which has none.
   double divergence = 0.0;
   Vec lower_digits;  ///< of integrate_quad, in and out: the state is state.y + lower_digits
@@ -43,11 +43,15 @@ struct BatchOptions {
   int threads = 0;  ///< 0: one per processor that this process may use
   bool sections = false;
   bool measures = false;
-  /// All 2 n Lyapunov exponents; their tangents start as the unit vectors. Sticking takes a
-  /// direction away, whose exponent, minus infinity, comes out as a number far below all others.
+  /// Lyapunov exponents; their tangents start as the unit vectors. Sticking takes a direction away,
+  /// whose exponent, minus infinity, comes out as a number far below all others.
   bool exponents = false;
+  int most_exponents = 0;  ///< the largest ones, which do not depend on the others; 0: all 2 n
   bool growths = false;  ///< with the exponents, how they come about
   bool tangent = false;  ///< instead of the exponents
+  /// With growths, called with a trajectory at the ends of its revolutions, in its thread: true ends
+  /// it there. May be empty.
+  std::function<bool(const Trajectory&)> is_enough;
   /// Called every few hundred steps with the revolutions done by this call, in each of its threads
   /// with its own; false: stop, all trajectories of the thread as they are. May be empty.
   std::function<bool(long)> watch;

@@ -88,7 +88,7 @@ class Engine {
   HWY_ATTR void step(const Observer* observer);
   HWY_ATTR void fail_steps(uint64_t bad);
   HWY_ATTR void end_revolutions(uint64_t ends, bool is_observed);
-  HWY_ATTR uint64_t due_lanes(uint64_t ends) const;
+  HWY_ATTR void end_of_step_of_exponents(uint64_t ends);
 
   // engine_events-inl.h
   HWY_ATTR void apply_events(uint64_t instant);

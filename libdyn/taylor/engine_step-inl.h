@@ -97,12 +97,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       finished_ |= 1;
     }
   } else if constexpr (knows_tangents<P>) {
-    if (has_tangents() && options_.exponents) variation_->orthonormalize(due_lanes(ends));
-    for (uint64_t rest = has_tangents() && options_.growths ? ends : 0; rest != 0;
-         rest &= rest - 1) {
-      const int l = __builtin_ctzll(rest);
-      variation_->keep_growths(l, records_[static_cast<size_t>(l)].trajectory->growths);
-    }
+    if (has_tangents() && options_.exponents) end_of_step_of_exponents(ends);
   }
   if (!goes_on) {
     records_[0].trajectory->outcome = Outcome::stopped_by_observer;
@@ -136,10 +131,11 @@ HWY_ATTR void Engine<P>::end_revolutions(uint64_t ends, bool is_observed) {
   }
 }
 
-/// Lanes whose columns are to be made orthonormal: at ends of revolutions and every so many of
-/// their own steps, so that it does not depend on the neighbors.
+/// Makes columns orthonormal, at ends of revolutions and every so many steps of a lane, so that it
+/// does not depend on the neighbors. Keeps what they have grown by at the ends of revolutions, where
+/// a trajectory may be told to end.
 template <class P>
-HWY_ATTR uint64_t Engine<P>::due_lanes(uint64_t ends) const {
+HWY_ATTR void Engine<P>::end_of_step_of_exponents(uint64_t ends) {
   constexpr long interval = 32;  // steps
   uint64_t due = ends;
   for (uint64_t rest = motion_.active; rest != 0; rest &= rest - 1) {
@@ -147,7 +143,13 @@ HWY_ATTR uint64_t Engine<P>::due_lanes(uint64_t ends) const {
     if ((steps_ - records_[static_cast<size_t>(l)].first_step) % interval == 0)
       due |= uint64_t{1} << l;
   }
-  return due;
+  variation_->orthonormalize(due);
+  for (uint64_t rest = options_.growths ? ends : 0; rest != 0; rest &= rest - 1) {
+    const int l = __builtin_ctzll(rest);
+    Trajectory& trajectory = *records_[static_cast<size_t>(l)].trajectory;
+    variation_->keep_growths(l, trajectory.growths);
+    if (options_.is_enough && options_.is_enough(trajectory)) finished_ |= uint64_t{1} << l;
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -27,7 +27,7 @@ inline double reach_of_slopes(double tolerance, int N) {
 /// Memory of the tangents: nothing unless they are asked for.
 template <class P>
 struct Tangents {
-  std::vector<P> columns;   ///< 2 n columns of 2 n rows, one after another
+  std::vector<P> columns;   ///< of 2 n rows, one after another
   std::vector<P> log_sums;  ///< log of the growth of every column
   std::vector<P> weights;   ///< 1 / scale^2 of the state
   P fastest2{0.0};          ///< square of the fastest rate of the linear part [1/s^2]

@@ -56,6 +56,11 @@ class Variation {
   HWY_ATTR P film_divergence(const P& h);
   HWY_ATTR void add_film_slopes(int k, P* to_a, P* to_b);
 
+  int columns_wanted() const {
+    const int size = m_.layout().size(), most = options_.most_exponents;
+    return options_.tangent || most == 0 ? size : std::min(size, most);
+  }
+
   MotionLanes<P>& m_;
   Sticking<P>& sticking_;
   const BatchOptions& options_;
@@ -74,8 +79,10 @@ Variation<P>::Variation(MotionLanes<P>& of, Sticking<P>& sticking, const BatchOp
       log2_tolerance_(std::log2(options.tolerance)) {
   const auto size = static_cast<size_t>(m_.layout().size());
   Tangents<P>& t = tangents_;
-  t.columns.assign(size * size, P(0.0));
-  t.log_sums.assign(size, P(0.0));
+  const auto wanted = static_cast<size_t>(columns_wanted());
+  const size_t count = wanted + wanted % 2;  // two are moved side by side, and 2 n are even
+  t.columns.assign(count * size, P(0.0));
+  t.log_sums.assign(count, P(0.0));
   t.weights.assign(size, P(1.0));
   t.weighted.assign(size, P(0.0));
   t.forces.assign(8 * m_.contacts.size(), P(0.0));  // the second half: friction that acts elsewhere
@@ -96,14 +103,15 @@ HWY_ATTR void Variation<P>::load(int l, const ContactSystem& s) {
   const int size = m_.layout().size();
   Vec scale(size);
   scale << s.state_scale();
-  for (int c = 0; c < size; ++c) {
-    const auto uc = static_cast<size_t>(c);
-    set_lane(t.log_sums[uc], l, 0.0);
-    set_lane(t.weights[uc], l, 1.0 / (scale(c) * scale(c)));
+  for (int i = 0; i < size; ++i) {
+    set_lane(t.weights[static_cast<size_t>(i)], l, 1.0 / (scale(i) * scale(i)));
+  }
+  for (P& sum : t.log_sums) set_lane(sum, l, 0.0);
+  const int count = static_cast<int>(t.columns.size()) / size;
+  for (int c = 0; c < count; ++c) {
     for (int i = 0; i < size; ++i) {
       const double unit = options_.exponents ? scale(i) : 1.0;
-      set_lane(t.columns[uc * static_cast<size_t>(size) + static_cast<size_t>(i)], l,
-               i == c ? unit : 0.0);
+      set_lane(t.columns[static_cast<size_t>(c * size + i)], l, i == c ? unit : 0.0);
     }
   }
   const double rate = fastest_mode(s);
@@ -313,7 +321,8 @@ HWY_ATTR void Variation<P>::orthonormalize(uint64_t due) {
   Tangents<P>& t = tangents_;
   const Mask where = mask_of<P>(due);
   const auto size = static_cast<size_t>(m_.layout().size());
-  for (size_t c = 0; c < size; ++c) {
+  const size_t count = t.log_sums.size();
+  for (size_t c = 0; c < count; ++c) {
     P* a = t.columns.data() + c * size;
     P square(0.0);
     for (size_t i = 0; i < size; ++i) square = fma(t.weights[i] * a[i], a[i], square);
@@ -324,7 +333,7 @@ HWY_ATTR void Variation<P>::orthonormalize(uint64_t due) {
       a[i] = select(where, a[i] * inverse, a[i]);
       t.weighted[i] = t.weights[i] * a[i];
     }
-    for (size_t other = c + 1; other < size; ++other) {
+    for (size_t other = c + 1; other < count; ++other) {
       P* b = t.columns.data() + other * size;
       P dot(0.0);
       for (size_t i = 0; i < size; ++i) dot = fma(t.weighted[i], b[i], dot);
@@ -337,15 +346,18 @@ HWY_ATTR void Variation<P>::orthonormalize(uint64_t due) {
 /// Adds what the columns have grown by in a lane.
 template <class P>
 HWY_ATTR void Variation<P>::keep_growths(int l, std::vector<double>& growths) const {
-  for (const P& sum : tangents_.log_sums) growths.push_back(static_cast<double>(lane(sum, l)));
+  const auto wanted = static_cast<size_t>(columns_wanted());
+  for (size_t c = 0; c < wanted; ++c) {
+    growths.push_back(static_cast<double>(lane(tangents_.log_sums[c], l)));
+  }
 }
 
 /// Lets the columns of a lane jump with the acceleration at an event.
 template <class P>
 HWY_ATTR void Variation<P>::jump(int l, const Saltation& s) {
   Tangents<P>& t = tangents_;
-  const int size = m_.layout().size();
-  for (int c = 0; c < size; ++c) {
+  const int size = m_.layout().size(), count = static_cast<int>(t.columns.size()) / size;
+  for (int c = 0; c < count; ++c) {
     P* column = t.columns.data() + static_cast<size_t>(c) * static_cast<size_t>(size);
     double along = 0.0;
     for (int i = 0; i < size; ++i) along += s.gradient(i) * lane(column[i], l);
@@ -367,8 +379,8 @@ HWY_ATTR void Variation<P>::unload(int l, double time, Trajectory& to) {
     }
   } else if (time > 0.0) {  // else it failed at once, and there is nothing to tell
     orthonormalize(uint64_t{1} << l);
-    to.exponents.resize(size);
-    for (int c = 0; c < size; ++c)
+    to.exponents.resize(columns_wanted());
+    for (int c = 0; c < to.exponents.size(); ++c)
       to.exponents(c) = lane(t.log_sums[static_cast<size_t>(c)], l) / time;
     std::sort(to.exponents.begin(), to.exponents.end(), std::greater<>());
   }

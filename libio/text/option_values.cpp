@@ -76,10 +76,24 @@ Parsed<long> parse_whole(std::string_view text, long least, long most) {
       fmt::format("expected a whole number from {}", range_text(least, most)));
 }
 
+namespace {
+
+/// A number between bounds that are written as they are told.
+Parsed<double> parse_between(std::string_view text, double least, double most,
+                             std::string_view bounds) {
+  auto number = parse_as(text, "");
+  if (!number || (*number >= least && *number <= most)) return number;
+  return Parsed<double>::failed(fmt::format("expected a number from {}", bounds));
+}
+
+}  // namespace
+
 Parsed<double> parse_tolerance(std::string_view text) {
-  auto tolerance = parse_as(text, "");
-  if (!tolerance || (*tolerance >= 1e-15 && *tolerance <= 1e-2)) return tolerance;
-  return Parsed<double>::failed("expected a number from 1e-15 to 1e-2");
+  return parse_between(text, 1e-15, 1e-2, "1e-15 to 1e-2");
+}
+
+Parsed<double> parse_resolution(std::string_view text) {
+  return parse_between(text, 1e-6, 10.0, "1e-6 to 10");
 }
 
 Parsed<std::string> parse_method(const std::string& name,

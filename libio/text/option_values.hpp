@@ -39,6 +39,8 @@ std::string range_text(long least, long most);
 
 /// Tolerance of an integrator's step.
 Parsed<double> parse_tolerance(std::string_view text);
+/// How well an exponent is to be known [1/revolution].
+Parsed<double> parse_resolution(std::string_view text);
 
 /// Name of one of these integrators, or "cvode".
 Parsed<std::string> parse_method(const std::string& name,

@@ -36,6 +36,19 @@ inline Option<long> discard_option() {
 inline Option<double> tolerance_option() {
   return {"tolerance", "T", "of a step, displacements by the clearance", 1e-10, parse_tolerance};
 }
+/// Which Lyapunov exponents are computed, and how well.
+struct ExponentVerbOptions {
+  Option<int> count{"lyapunov", "N",
+                    "Lyapunov exponents that are computed, the largest ones, of which two tell "
+                    "every kind of motion; left out: all",
+                    Whole{1, 1000}};
+  Option<double> resolution{"resolution", "R",
+                            "chaos is averaged until its largest exponent is known to this "
+                            "[1/revolution]; left out: over all revolutions",
+                            parse_resolution};
+  auto fields() { return std::tie(count, resolution); }
+};
+
 inline Option<std::string> from_option() {
   return file_option("from", "FILE.h5", "start where a result ended");
 }

@@ -22,6 +22,8 @@ ClassifyOptions study_classify(const StudyVerbOptions& options) {
   return {.discard = *options.discard,
           .revolutions = *options.revolutions,
           .exponents = *options.exponents,
+          .most_exponents = options.lyapunov.count.value_or(0),
+          .resolution = options.lyapunov.resolution.value_or(0.0),
           .tolerance = *options.tolerance};
 }
 

@@ -35,6 +35,7 @@ struct StudyVerbOptions {
   Option<long> exponents{"exponents", "N",
                          "of these, over which Lyapunov exponents are averaged at most", 1000,
                          revolution_range};
+  ExponentVerbOptions lyapunov{};
   Option<long> discard = discard_option();
   Option<double> tolerance = tolerance_option();
   Option<std::string> isa = isa_option();
@@ -47,7 +48,9 @@ struct StudyVerbOptions {
                              if (!stripe) return Parsed<std::string>::failed(stripe.problem);
                              return text;
                            }};
-  auto fields() { return std::tie(revolutions, exponents, discard, tolerance, isa, kept, part); }
+  auto fields() {
+    return std::tie(revolutions, exponents, lyapunov, discard, tolerance, isa, kept, part);
+  }
 };
 
 /// Points of a study.

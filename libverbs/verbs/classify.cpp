@@ -12,12 +12,13 @@ struct ClassifyVerbOptions {
   Option<long> revolutions{"revolutions", "N",
                            "revolutions over which Lyapunov exponents are averaged", 1000,
                            revolution_range};
+  ExponentVerbOptions lyapunov{};
   Option<long> discard = discard_option();
   StepVerbOptions by{};
   Option<double> tolerance = tolerance_option();
   Option<std::string> isa = isa_option();
   Option<std::string> from = from_option();
-  auto fields() { return std::tie(revolutions, discard, by, tolerance, isa, from); }
+  auto fields() { return std::tie(revolutions, lyapunov, discard, by, tolerance, isa, from); }
 };
 
 constexpr Eigen::Index told_estimates = 400;  ///< of exponents over time
@@ -26,6 +27,8 @@ ClassifyOptions classify_options(const Invocation& call, const ClassifyVerbOptio
   ClassifyOptions options{.discard = *asked.discard,
                           .revolutions = *asked.revolutions,
                           .exponents = *asked.revolutions,
+                          .most_exponents = asked.lyapunov.count.value_or(0),
+                          .resolution = asked.lyapunov.resolution.value_or(0.0),
                           .tolerance = *asked.tolerance,
                           .rk4_steps = asked.by.rk4_steps(),
                           .path = call.wants_result() ? told_estimates : 0};

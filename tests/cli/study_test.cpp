@@ -62,6 +62,28 @@ TEST_F(Study, MapShowsHowFrictionMakesDisorder) {
   EXPECT_GT(share(2, is_hyperchaotic), 0.2);
 }
 
+// Two exponents tell every kind, and are those of all eight.
+TEST_F(Study, MapOfTwoExponents) {
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> call{"map",           stator,
+                                  "--over",        "contact.ring.friction=0.1,0.3",
+                                  "--over",        "operation.speed=136,151rad/s",
+                                  "--set",         "contact.ring.stiffness=150e6",
+                                  "--discard",     "200",
+                                  "--revolutions", "100"};
+    call.insert(call.end(), more.begin(), more.end());
+    return result(call);
+  };
+  const json all = with({}), two = with({"--lyapunov", "2"});
+  for (const char* told : {"motion", "period_revs", "regime", "lyapunov_max"}) {
+    EXPECT_EQ(two[told], all[told]) << told;
+  }
+  EXPECT_EQ(with({"--lyapunov", "2", "--resolution", "0.3"})["motion"], all["motion"]);
+  EXPECT_TRUE(
+      has(whirl({"map", stator, "--over", "operation.speed=136,151rad/s", "--resolution", "0"}).err,
+          "expected a number from 1e-6 to 10"));
+}
+
 // The motions that equal steps of the Runge-Kutta method make: (150 rad/s, 100 MN/m, 0.12) is a
 // torus, and chaos with 1000 steps a revolution. It is said whose motions these are.
 TEST_F(Study, StepsOfRk4MakeChaosOfATorus) {

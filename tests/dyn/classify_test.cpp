@@ -57,6 +57,38 @@ TEST(Classify, TellsChaosFromOrder) {
   }
 }
 
+// Chaos that is known well enough is averaged no longer; order is, to the end. Contacts are
+// measured over all revolutions all the same.
+TEST(Classify, AveragesChaosUntilItsExponentIsKnown) {
+  const auto at = [](double mu) { return RotorStator{.Omega = 138.4, .kC = 64e6, .mu = mu}; };
+  const Classification whole = kind_of(at(0.2));
+  const Classification c = kind_of(at(0.2), {.most_exponents = 2, .resolution = 0.2});
+  EXPECT_EQ(c.kind, whole.kind);
+  ASSERT_EQ(c.exponents.size(), 2);
+  EXPECT_LE(c.resolution, 0.2);
+  EXPECT_GT(c.resolution, whole.resolution);
+  EXPECT_NEAR(c.exponents(0), whole.exponents(0), 0.2);
+  EXPECT_EQ(c.revolutions, 1000);
+  EXPECT_NEAR(c.impacts(), whole.impacts(), 0.05 * whole.impacts());
+
+  const test::MassInRing torus{.Omega = 100.0, .k = 1.7e4, .U = 1e-5, .clearance = 1e-2};
+  const Scene scene = torus.scene();
+  const auto start = test::state_of({1e-3, 0.0}, {0.0, 0.1});
+  const ClassifyOptions options{.revolutions = 300};
+  ClassifyOptions rough = options;
+  rough.resolution = 0.2;
+  const Classification found = classify(scene.contacts, start, rough);
+  EXPECT_EQ(found.kind, MotionKind::quasi_periodic);
+  EXPECT_EQ(found.exponents, classify(scene.contacts, start, options).exponents);
+}
+
+// Of a proven orbit, too, no more exponents are told than asked for.
+TEST(Classify, TellsSoManyExponents) {
+  const Classification all = kind_of(test::P1), c = kind_of(test::P1, {.most_exponents = 3});
+  EXPECT_TRUE(c.is_proven);
+  EXPECT_EQ(c.exponents, all.exponents.head(3));
+}
+
 // In the lanes of a batch, among others, a motion becomes what it becomes alone, bit by bit.
 TEST(Classify, IsTheSameAloneAndTogether) {
   std::vector<Scene> scenes;

@@ -164,6 +164,29 @@ TEST(Lyapunov, ExponentsAddUpToTheDivergence) {
   }
 }
 
+// The largest exponents do not depend on whether smaller ones are computed: bit by bit, alone and
+// in lanes.
+TEST(Lyapunov, TheLargestExponentsNeedNoOthers) {
+  constexpr long revolutions = 12;
+  const Scene scene = test::P4.scene();
+  MotionState state = test::start_of(test::P4.model(), scene);
+  test::run(scene, state, 100);
+  const auto growths = [&](int most, std::size_t together) {
+    std::vector<Trajectory> all(
+        together, {.system = &scene.contacts, .state = state, .revolutions = revolutions});
+    const BatchOptions options{
+        .threads = 1, .exponents = true, .most_exponents = most, .growths = true};
+    together == 1 ? integrate_single(all[0], options) : integrate_batch(all, options);
+    EXPECT_EQ(all.back().exponents.size(), most > 0 ? most : 8);
+    EXPECT_NEAR(all.back().divergence, -119.2, 1e-9);
+    return Mat(Eigen::Map<const Mat>(all.back().growths.data(), most > 0 ? most : 8, revolutions));
+  };
+  for (const std::size_t together : {1u, 5u}) {
+    const Mat all = growths(0, together);
+    for (const int most : {1, 2, 3}) EXPECT_EQ(growths(most, together), all.topRows(most)) << most;
+  }
+}
+
 // A linear rotor: exponents are the real parts of its eigenvalues, here -delta four times, and for
 // an overdamped one -delta +- sqrt(delta^2 - w^2).
 TEST(Lyapunov, ExponentsOfALinearRotorAreThoseOfItsEigenvalues) {
