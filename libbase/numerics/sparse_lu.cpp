@@ -3,8 +3,11 @@
 #include <klu.h>
 
 #include <cassert>
+#include <cmath>
+#include <utility>
 #include <vector>
 
+#include "libbase/numerics/constants.hpp"
 #include "libbase/system/interruption.hpp"
 
 namespace whirl::inline base {
@@ -42,6 +45,7 @@ class KluFactors {
       : columns_(pattern.outerIndexPtr(), pattern.outerIndexPtr() + pattern.cols() + 1),
         rows_(pattern.innerIndexPtr(), pattern.innerIndexPtr() + pattern.nonZeros()) {
     klu_defaults(&common_);
+    common_.scale = -1;  // rows are taken as they are, and not looked over again
     symbolic_ =
         klu_analyze(static_cast<int>(pattern.cols()), columns_.data(), rows_.data(), &common_);
   }
@@ -54,9 +58,15 @@ class KluFactors {
 
   /// Whether A, on the pattern, has an inverse and is finite.
   bool factorize(const Matrix& A) {
-    auto* values = reinterpret_cast<double*>(const_cast<Scalar*>(A.valuePtr()));
-    // the order of pivots of the last matrix serves, which takes half the time, while it is stable
-    if (numeric_ && refactorize(values) && is_stable(values)) return true;
+    // the order of pivots of the last matrix serves, which takes half the time; the first solution
+    // tells whether it is stable
+    has_doubt_ = numeric_ && refactorize(values_of(A)) && has_pivots();
+    return has_doubt_ || factorize_anew(A);
+  }
+  /// The same with an order of pivots of its own.
+  bool factorize_anew(const Matrix& A) {
+    double* values = values_of(A);
+    has_doubt_ = false;
     for (const double least_pivot : {0.001, 1.0}) {  // of its column: the diagonal first, then any
       forget();
       if (!symbolic_) return false;
@@ -68,6 +78,8 @@ class KluFactors {
     return numeric_ != nullptr;
   }
   bool is_regular() const { return numeric_ != nullptr; }
+  /// Whether nobody knows yet that the factors are stable; asked once.
+  bool takes_doubt() { return std::exchange(has_doubt_, false); }
 
   /// Turns columns b into A^-1 b.
   template <class Columns>
@@ -78,6 +90,9 @@ class KluFactors {
   }
 
  private:
+  static double* values_of(const Matrix& A) {
+    return reinterpret_cast<double*>(const_cast<Scalar*>(A.valuePtr()));
+  }
   bool refactorize(double* values) {
     return Klu<Scalar>::refactor(columns_.data(), rows_.data(), values, symbolic_, numeric_,
                                  &common_);
@@ -102,6 +117,7 @@ class KluFactors {
   klu_common common_{};
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
+  bool has_doubt_ = false;
 };
 
 }  // namespace
@@ -133,6 +149,15 @@ Mat SparseLu::solve(const Eigen::Ref<const Mat>& b) const {
 
 struct ComplexSparseLu::Factors : KluFactors<Complex> {
   using KluFactors::KluFactors;
+
+  /// Whether A x = b but for rounding.
+  bool is_accurate(const CVec& x, const CVec& b) const {
+    constexpr double enough = 1e-12;  // backward error; elimination that is stable leaves 1e-15
+    const double size = std::sqrt(A->coeffs().abs2().sum() * x.squaredNorm()) + b.norm();
+    return (b - *A * x).norm() <= enough * size;
+  }
+
+  const CSparse* A = nullptr;  ///< that is factored
 };
 
 ComplexSparseLu::ComplexSparseLu(const CSparse& pattern)
@@ -143,10 +168,15 @@ ComplexSparseLu& ComplexSparseLu::operator=(ComplexSparseLu&&) noexcept = defaul
 
 bool ComplexSparseLu::factorize(const CSparse& A) {
   interruption_point();
+  factors_->A = &A;
   return factors_->factorize(A);
 }
 CVec ComplexSparseLu::solve(const CVec& b) const {
   CVec x = b;
+  factors_->solve(x);
+  if (!factors_->takes_doubt() || factors_->is_accurate(x, b)) return x;
+  if (!factors_->factorize_anew(*factors_->A)) return CVec::Constant(b.size(), Complex(nan, nan));
+  x = b;
   factors_->solve(x);
   return x;
 }

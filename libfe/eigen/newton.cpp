@@ -1,7 +1,9 @@
 #include "libfe/eigen/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace whirl::inline fe {
 
@@ -9,6 +11,9 @@ namespace {
 
 constexpr double rounding_steps = 1e-8;  ///< of steps that grow again, as far as they are rounding
 constexpr int most_newton_steps = 25;
+constexpr int most_inverse_steps = 3;     ///< with the factors of one Newton step
+constexpr double near_enough = 1e-4;      ///< a Newton step after which they may do, relative
+constexpr double next_eigenvalue = 1e-2;  ///< relative distance that is expected at least
 
 }  // namespace
 
@@ -26,7 +31,32 @@ PairNewton::Step PairNewton::step(EigenPair& pair) {
   return Step::taken;
 }
 
+/// Inverse iteration with the factors at s of the last Newton step, until no more than `left` is
+/// expected of the steps that follow; false: it does not get there soon, and the pair stays.
+/// @param first  relative size of that step
+bool PairNewton::iterate(EigenPair& pair, Complex s, double first, double left) {
+  EigenPair next = pair;
+  CVec p = next.lambda * next.q;
+  double last = first;
+  for (int i = 0; i < most_inverse_steps; ++i) {
+    const CVec x = factor_.solve(CVec(pencil_.M() * CVec(p + s * next.q) + pencil_.D() * next.q));
+    const Complex lambda = s - next.q.squaredNorm() / next.q.dot(x);
+    const double length = x.norm();
+    const double size = std::abs(lambda - next.lambda) / std::abs(lambda);
+    if (!std::isfinite(size) || !(length > 0.0)) return false;
+    p = (s * x - next.q) / length;
+    next = {lambda, x / length};
+    if (size * std::max(size / last, first / next_eigenvalue) <= left) {
+      pair = std::move(next);
+      return true;
+    }
+    last = size;
+  }
+  return false;
+}
+
 bool PairNewton::converge(EigenPair& pair, double settled) {
+  const double left = std::max(settled * settled, std::numeric_limits<double>::epsilon());
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_newton_steps; ++i) {
     const Complex before = pair.lambda;
@@ -34,6 +64,7 @@ bool PairNewton::converge(EigenPair& pair, double settled) {
     if (done != Step::taken) return done == Step::is_exact;
     const double size = std::abs(pair.lambda - before) / std::abs(pair.lambda);
     if (size <= settled || (size <= rounding_steps && size >= 0.5 * last)) return true;
+    if (size <= near_enough && iterate(pair, before, size, left)) return true;
     last = size;
   }
   return false;

@@ -14,7 +14,11 @@ struct EigenPair {
 
 /// Newton's iteration to an eigenpair that is near; the order of elimination is found once.
 ///
-///   Q(lambda) x = Q'(lambda) q,   lambda - q^H q / q^H x,   x / |x|
+///   Q(s) x = (s M + D) q + M p,   lambda = s - q^H q / q^H x,   p = s x - q
+///
+/// with p = lambda q at first. Where s = lambda this is Newton's step. With the factors of an s
+/// that is not much farther from the eigenvalue it is inverse iteration, which takes the next step
+/// without a factorization.
 ///
 /// @source [Ruhe1973]
 class PairNewton {
@@ -27,10 +31,13 @@ class PairNewton {
   /// it is.
   Step step(EigenPair& pair);
 
-  /// Steps until one is relatively shorter than this; false: it does not converge.
+  /// Steps until one is relatively shorter than this, after which Newton's next one would be its
+  /// square, or until as little is left by inverse iteration; false: it does not converge.
   bool converge(EigenPair& pair, double settled);
 
  private:
+  bool iterate(EigenPair& pair, Complex s, double first, double left);
+
   Pencil pencil_;
   ComplexSparseLu factor_;
 };
