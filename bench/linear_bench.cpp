@@ -63,14 +63,21 @@ void CampbellOfTheCompressor100Speeds(benchmark::State& state) {
 }
 BENCHMARK(CampbellOfTheCompressor100Speeds)->Unit(benchmark::kMillisecond);
 
-void Modes1000NodesAtOneSpeed(benchmark::State& state) {
+void find_modes(benchmark::State& state, Completeness completeness) {
   const Structure s = rotor(1000);
   for (auto _ : state) {
     const Assembler assembler(s);
-    benchmark::DoNotOptimize(complex_modes(assembler.at(4000.0 * rpm), 8));
+    benchmark::DoNotOptimize(complex_modes(assembler.at(4000.0 * rpm), 8, completeness));
   }
 }
+void Modes1000NodesAtOneSpeed(benchmark::State& state) {
+  find_modes(state, Completeness::proven);
+}
+void Modes1000NodesAtOneSpeedUnproven(benchmark::State& state) {
+  find_modes(state, Completeness::unproven);
+}
 BENCHMARK(Modes1000NodesAtOneSpeed)->Unit(benchmark::kMillisecond);
+BENCHMARK(Modes1000NodesAtOneSpeedUnproven)->Unit(benchmark::kMillisecond);
 
 void Unbalance50Nodes500Speeds(benchmark::State& state) {
   const Structure s = rotor(50);
