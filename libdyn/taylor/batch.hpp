@@ -25,8 +25,8 @@ struct Trajectory {
   std::vector<double> sections;        ///< states at the ends of revolutions, if asked for
   std::vector<ContactTimes> contacts;  ///< of all revolutions, if asked for
   Vec exponents;                       ///< Lyapunov exponents, descending, if asked for [1/s]
-  /// Logarithms of what the columns of tangents have grown by at the ends of revolutions, as many
-  /// each time as there are exponents, if asked for; the last ones over the time are the exponents, before they are sorted.
+  /// Logarithms of what the columns of tangents have grown by at the ends of revolutions, one for
+  /// each exponent, if asked for; the last ones over the time are the exponents, not sorted yet.
   std::vector<double> growths;
   Mat tangent;  ///< derivative of the end by the start, if asked for
   /// Mean divergence of the flow, with exponents or tangent [1/s]: the sum of all 2 n exponents, and
