@@ -52,7 +52,7 @@ std::optional<GeneralModes> general_modes(const Mat& A);
 /// The x that comes nearest to A x = b, also where A is singular.
 Vec least_squares(const Mat& A, const Vec& b);
 
-/// Eigenvalues of a square matrix.
+/// Eigenvalues of a square matrix; NaN if the iteration does not converge.
 CVec eigenvalues(const Mat& A);
 
 }  // namespace whirl::inline base

@@ -308,4 +308,22 @@ TEST(QuadraticModes, EigenvectorsOfTheDenseSolverSolveTheProblem) {
   }
 }
 
+// A rotor, one of two thousand random ones, for which Eigen's real QR iteration goes in circles: it
+// is computed by complex shifts.
+TEST(QuadraticModes, TheDenseSolverTakesComplexShiftsWhereRealOnesGoInCircles) {
+  std::mt19937 random(11);
+  random.discard(121698);
+  Structure rotor = test::random_rotor(random, {.elements = 32, .damping = 0.0088440483298717152});
+  rotor.damping = {.mass = 2.1181675167938092, .stiffness = 0.00057315741691693265};
+  const System s = assemble(rotor, 871.14203249175762);
+  const QuadraticModes modes = dense_quadratic_modes(s.M, s.D(), s.K);
+  const auto all = ordered(modes.lambda);
+  ASSERT_GT(all.size(), 12u);
+  for (Eigen::Index i = 0; i < modes.lambda.size(); ++i) {
+    if (std::abs(modes.lambda(i)) > std::abs(all[12])) continue;
+    EXPECT_LT(residual(s, modes.lambda(i), modes.q.col(i)), 1e-8);
+  }
+  expect_lowest(s, 4);
+}
+
 }  // namespace whirl::quadratic_test
