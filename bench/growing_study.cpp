@@ -112,7 +112,7 @@ int run(std::size_t points, std::size_t at_once, const std::string& kept) {
   double whole = 0.0;
   const auto grow = [&](MapResult result, const Monitor<MapResult>& monitor) {
     result.system =
-        study_system(*study_points.models().member(study_points.grid().values_at(0)).scene);
+        study_system(*study_points.models().member(study_points.grid().values_at(0)).scene, {});
     result.points.resize(study_points.grid().points());
     std::vector<std::size_t> news;
     for (std::size_t i = 0; i < result.points.size(); ++i) {
