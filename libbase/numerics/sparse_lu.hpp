@@ -37,9 +37,10 @@ class ComplexSparseLu {
   ComplexSparseLu(ComplexSparseLu&&) noexcept;
   ComplexSparseLu& operator=(ComplexSparseLu&&) noexcept;
 
-  /// Whether A, on the pattern, has an inverse; only then solve() has an answer. A must stay as it
-  /// is meanwhile.
+  /// Whether A, on the pattern, has an inverse; only then solve() has an answer. A must stay where
+  /// and as it is meanwhile.
   bool factorize(const CSparse& A);
+  bool factorize(CSparse&& A) = delete;
   /// A^-1 b; from one thread at a time. The first solution of factors whose order of pivots is old
   /// is checked, and makes them anew where it is not accurate; NaN where there is no inverse then.
   CVec solve(const CVec& b) const;

@@ -38,8 +38,9 @@ TEST(Interruption, IsAskedOfInItsThreadWhileItLives) {
 TEST(Interruption, LeavesBeforeAMatrixIsFactored) {
   const Interruptible leaves([] { throw Left(); });
   EXPECT_THROW(SparseLu{one()}, Left);
-  ComplexSparseLu lu(one().cast<Complex>());
-  EXPECT_THROW(lu.factorize(one().cast<Complex>()), Left);
+  const CSparse matrix = one().cast<Complex>();
+  ComplexSparseLu lu(matrix);
+  EXPECT_THROW(lu.factorize(matrix), Left);
 }
 
 }  // namespace

@@ -63,9 +63,11 @@ TEST(ComplexSparseLu, TellsAZeroOnTheDiagonalAfterARegularMatrix) {
     return CSparse(A.cast<Complex>());
   };
   ComplexSparseLu lu(diagonal(1.0, 1.0));
-  EXPECT_TRUE(lu.factorize(diagonal(1.0, 2.0)));
-  EXPECT_FALSE(lu.factorize(diagonal(1.0, 0.0)));
-  EXPECT_TRUE(lu.factorize(diagonal(3.0, 2.0)));
+  const CSparse regular = diagonal(1.0, 2.0), singular = diagonal(1.0, 0.0);
+  const CSparse other = diagonal(3.0, 2.0);
+  EXPECT_TRUE(lu.factorize(regular));
+  EXPECT_FALSE(lu.factorize(singular));
+  EXPECT_TRUE(lu.factorize(other));
   EXPECT_LT(std::abs(lu.solve(CVec::Ones(2))(0) - 1.0 / 3.0), rounding);
 }
 
