@@ -189,21 +189,9 @@ BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
   PointWork<BasinsPoint> work{
       .most_together = most_starts, .stripe = options.stripe, .threads = options.threads};
   work.compute = [&](const auto& piece, NothingGiven&) { return compute(piece, models, options); };
-  // a file that has all points has the basins, too, at whatever moment
-  const auto complete = [&] {
-    if (done_points(result.points) == result.points.size()) find_basins(first->contacts, result);
-  };
-  Monitor<BasinsResult> saving = monitor;
-  if (monitor.save) {
-    saving.save = [&](const BasinsResult& found) { complete(), monitor.save(found); };
-  }
-  if (monitor.add) {
-    saving.add = [&](const BasinsResult& found, std::span<const std::size_t> points) {
-      complete(), monitor.add(found, points);
-    };
-  }
-  run_points(work, result, saving);
-  find_basins(first->contacts, result);
+  work.conclude = [&] { find_basins(first->contacts, result); };
+  run_points(work, result, monitor);
+  if (done_points(result.points) < result.points.size()) work.conclude();  // of those that are done
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "libdyn/taylor/batch.hpp"
+
 namespace whirl::inline dyn {
 
 Regime ClassifiedMotion::regime() const {
@@ -44,6 +46,10 @@ ClassifiedMotion classified(const Classification& found) {
     motion.contacts.push_back(contact_doing(m, found.revolutions));
   }
   return motion;
+}
+
+Eigen::Index StudySystem::exponents() const {
+  return exponents_of(states, most_exponents);
 }
 
 StudySystem study_system(const Scene& scene, const ClassifyOptions& options) {

@@ -89,9 +89,8 @@ struct StudySystem {
   Eigen::Index dofs = 0;                ///< of all points, see FullState
   int most_exponents = 0;               ///< as ClassifyOptions has it
 
-  Eigen::Index exponents() const {
-    return ClassifyOptions{.most_exponents = most_exponents}.exponents_of(states);
-  }
+  /// Lyapunov exponents of a motion.
+  Eigen::Index exponents() const;
 };
 StudySystem study_system(const Scene& scene, const ClassifyOptions& options);
 

@@ -137,7 +137,7 @@ class BatchClassifier {
  private:
   bool by_steps() const { return options_.rk4_steps > 0; }
   Eigen::Index exponents_of(const ContactSystem& system) const {
-    return options_.exponents_of(system.size());
+    return dyn::exponents_of(system.size(), options_.most_exponents);
   }
 
   std::function<bool(long)> watch(bool counts) const {

@@ -1,7 +1,6 @@
 #pragma once
 /// The kind of a steady motion: what its tangents and its sections say together.
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -51,11 +50,6 @@ struct ClassifyOptions {
   Eigen::Index path = 0;  ///< at how many numbers of revolutions exponents are told at most
   /// Called now and then with the revolutions done by all motions together; false: stop.
   std::function<bool(long)> watch;
-
-  /// Exponents of a motion with so many states.
-  Eigen::Index exponents_of(Eigen::Index states) const {
-    return most_exponents > 0 ? std::min<Eigen::Index>(states, most_exponents) : states;
-  }
 };
 
 /// What a motion becomes.

@@ -99,6 +99,10 @@ void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor
   const auto open = static_cast<long>(open_points(points, work.stripe));
   long done = 0;
   Savings<Result> savings(result, monitor);
+  const auto conclude = [&] {
+    if (work.conclude && done == open) work.conclude();
+  };
+  conclude();
   PieceSizes sizes(work.most_together, work.computing_threads(), lanes_together());
   PiecesLeft<Row> pieces(work.pieces, points, work.stripe);
   const auto next = [&](int threads) -> std::optional<OpenPiece<Given>> {
@@ -115,6 +119,7 @@ void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor
       points.set(point, finished.rows[i]);
     }
     sizes.learn(finished.piece.size(), finished.seconds);
+    conclude();
     savings.note(finished.piece);
     monitor.show(done, open);
   };

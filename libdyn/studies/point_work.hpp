@@ -34,6 +34,8 @@ struct PointWork {
   /// The rows of a piece, in any thread of any process: the same rows for the same points and what
   /// the piece is given, bit by bit.
   std::function<std::vector<Row>(const Piece&, Given&)> compute{};
+  /// Makes what is made of all points, once all are there and before that is saved; may be empty.
+  std::function<void()> conclude{};
   /// Whether rows of a piece that is stopped are worth keeping, too.
   bool keeps_parts = false;
 

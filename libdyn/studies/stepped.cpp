@@ -87,8 +87,7 @@ void integrate_one(Trajectory& t, const BatchOptions& options, long steps, doubl
       return true;
     };
   }
-  const int most = options.most_exponents;
-  Copies copies(system, apart, most > 0 ? std::min(most, system.size()) : system.size());
+  Copies copies(system, apart, exponents_of(system.size(), options.most_exponents));
   long done = 0;
   while (done < t.revolutions && t.outcome == Outcome::reached_end) {
     if (options.exponents) copies.begin(t.state);

@@ -1,6 +1,7 @@
 #pragma once
 /// The engine: event-exact Taylor integration of many trajectories at once.
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <string>
@@ -34,6 +35,11 @@ struct Trajectory {
   double divergence = 0.0;
   Vec lower_digits;  ///< of integrate_quad, in and out: the state is state.y + lower_digits
 };
+
+/// Lyapunov exponents of a motion with so many states, where so many are wanted at most; 0: all.
+inline Eigen::Index exponents_of(Eigen::Index states, int most) {
+  return most > 0 ? std::min<Eigen::Index>(states, most) : states;
+}
 
 /// What is wanted beside the end of a trajectory; what is not wanted costs nothing.
 struct BatchOptions {

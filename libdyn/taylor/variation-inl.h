@@ -57,8 +57,9 @@ class Variation {
   HWY_ATTR void add_film_slopes(int k, P* to_a, P* to_b);
 
   int columns_wanted() const {
-    const int size = m_.layout().size(), most = options_.most_exponents;
-    return options_.tangent || most == 0 ? size : std::min(size, most);
+    const int size = m_.layout().size();
+    return options_.tangent ? size
+                            : static_cast<int>(exponents_of(size, options_.most_exponents));
   }
 
   MotionLanes<P>& m_;
