@@ -13,6 +13,7 @@
 #include "libfe/analyses/modes.hpp"
 #include "libfe/analyses/static.hpp"
 #include "libfe/assembly/excitations.hpp"
+#include "libfe/eigen/positive_factor.hpp"
 
 namespace whirl::inline dyn {
 
@@ -41,10 +42,9 @@ Vec end_of(const FullState* end, const Scene& scene, const NearestCoordinates& n
                     end->displacement.size(), T.rows()));
   }
   // full vectors to the system's coordinates by least squares (T has full column rank)
-  const Mat dense_T(T);
-  const DenseLu<Mat> normal(dense_T.transpose() * dense_T);
+  const Ldlt normal(Sparse(T.transpose() * T));
   const auto coordinates = [&](const Vec& full) {
-    return nearest.of(normal.solve(dense_T.transpose() * full));
+    return nearest.of(normal.solve(T.transpose() * full));
   };
   const StateLayout layout = scene.contacts.layout();
   Vec y(layout.size());

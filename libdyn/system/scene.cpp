@@ -138,7 +138,7 @@ Scene with_contacts(const Scene& scene, const Model& model) {
 }
 
 NearestCoordinates::NearestCoordinates(const Scene& scene)
-    : weighted_(scene.reduced.Phi.transpose() * Mat(scene.system.M)), mass_(scene.reduced.M) {}
+    : weighted_((scene.system.M * scene.reduced.Phi).transpose()), mass_(scene.reduced.M) {}
 
 FullState full_state(const Scene& scene, const MotionState& state) {
   const Mat map = scene.displacement_map();

@@ -4,7 +4,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/trajectory.hpp"
-#include "libfe/analyses/reduce.hpp"
+#include "libfe/analyses/reduction_error.hpp"
 
 namespace whirl::inline dyn {
 
@@ -39,7 +39,7 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
 Scene with_contacts(const Scene& scene, const Model& model);
 
 /// Reduced coordinates of motions q of all dofs, the nearest in kinetic energy:
-/// eta = (Phi^T M Phi)^-1 Phi^T M q.
+/// eta = (Phi^T M Phi)^-1 Phi^T M q. Takes memory and time in proportion to the dofs.
 class NearestCoordinates {
  public:
   explicit NearestCoordinates(const Scene& scene);

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/analyses/modes.hpp"
+#include "libfe/analyses/reduction_error.hpp"
 #include "libfe/analyses/static_shapes.hpp"
-#include "libfe/eigen/dynamic_stiffness.hpp"
-#include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {
@@ -17,7 +17,6 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double dependent = 1e-7;  ///< of its M-norm: what is left of a shape that repeats others
-constexpr int band_samples = 25;    ///< frequencies at which receptances are compared
 constexpr int largest_basis = 60;
 constexpr int small_system = 12;  ///< dofs that are not worth reducing
 
@@ -94,59 +93,6 @@ ReducedSystem project(const System& system, const Mat& basis) {
   return in_shapes(system, Phi);
 }
 
-ReductionError reduction_error(const System& system, const ReducedSystem& reduced,
-                               const std::vector<Vec>& ports, double band) {
-  ReductionError error{.band = band};
-  int wanted = std::max(4, reduced.size());
-  Modes full = complex_modes(system, wanted);
-  const auto ends_within = [&] {
-    return static_cast<int>(full.oscillatory.size()) == wanted &&
-           full.oscillatory.back().frequency() <= band;
-  };
-  while (wanted < 2 * largest_basis && ends_within()) full = complex_modes(system, wanted *= 2);
-  const QuadraticModes small = dense_quadratic_modes(
-      Mat(reduced.M).sparseView(), Mat(reduced.D()).sparseView(), reduced.stiffness().sparseView(),
-      full.rigid_body.empty() ? 0.0 : -0.1 * std::max(1.0, band));
-  for (const Mode& mode : full.oscillatory) {
-    if (mode.frequency() > band) break;
-    ReductionError::Pair pair{mode.lambda, 0.0};
-    for (Eigen::Index i = 0; i < small.lambda.size(); ++i) {
-      const Complex lambda = small.lambda(i);
-      if (std::abs(lambda - pair.full) < std::abs(pair.reduced - pair.full)) pair.reduced = lambda;
-    }
-    error.pairs.push_back(pair);
-  }
-  if (ports.empty()) return error;
-
-  const auto count = static_cast<Eigen::Index>(ports.size());
-  CMat rows(system.size(), count);
-  for (Eigen::Index j = 0; j < count; ++j)
-    rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
-  const CMat small_rows = reduced.Phi.transpose().cast<Complex>() * rows;
-  const Mat small_K = reduced.stiffness(), small_D = reduced.D();
-  DynamicStiffness stiffness(system);
-  double static_size = 0.0;  // of the receptance at the lowest frequency
-  for (int s = 0; s < band_samples; ++s) {
-    const double w = band * (s + 0.5) / band_samples;
-    CMat exact(count, count);
-    bool is_regular = true;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const auto q = stiffness.solve(w, system.Omega, rows.col(j));
-      is_regular = is_regular && q;
-      if (q) exact.col(j) = rows.transpose() * *q;
-    }
-    if (!is_regular) continue;
-    const CMat Z =
-        (small_K - w * w * reduced.M).cast<Complex>() + Complex(0.0, w) * small_D.cast<Complex>();
-    const CMat approximate = small_rows.transpose() * DenseLu<CMat>(Z).solve(small_rows);
-    // at an antiresonance the static receptance is the measure, not the vanishing one
-    if (static_size == 0.0) static_size = exact.norm();
-    error.receptance =
-        std::max(error.receptance, (approximate - exact).norm() / (exact.norm() + static_size));
-  }
-  return error;
-}
-
 ReducedSystem reduce(const System& system, const Reduction& how, const std::vector<Vec>& ports,
                      const std::vector<Vec>& others, ReductionError* error) {
   const int n = system.size();
@@ -204,10 +150,12 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
 
   ReducedSystem reduced;
   ReductionError found;
+  std::optional<WholeSystem> whole;
   for (int modes = how.modes > 0 ? how.modes : std::min(4, most);; modes += 2) {
     reduced = with(std::min(modes, most));
     if (how.modes > 0 && !error) break;
-    found = reduction_error(system, reduced, ports, band);
+    if (!whole) whole.emplace(system, ports, band, reduced.size());
+    found = whole->error_of(reduced);
     found.within_tolerance = std::max(found.eigenvalue(), found.receptance) <= how.tolerance;
     if (found.within_tolerance || modes >= most) break;
   }

@@ -52,26 +52,7 @@ struct ReducedSystem : EquationsOfMotion<Mat> {
   DofMap dofs;  ///< of the system that was reduced
 };
 
-/// How far a reduced system is from the full one.
-struct ReductionError {
-  /// An eigenvalue of the full system in the band and the nearest one of the reduced one [rad/s].
-  struct Pair {
-    Complex full, reduced;
-    double error() const { return std::abs(reduced - full) / std::abs(full); }
-  };
-  std::vector<Pair> pairs;  ///< ascending frequency
-  double band = 0.0;        ///< [rad/s]
-  double receptance = 0.0;  ///< largest error of the receptance between ports in the band, relative
-                            ///< to itself plus its static value
-  bool within_tolerance = true;
-
-  /// Largest relative error of an eigenvalue.
-  double eigenvalue() const {
-    double largest = 0.0;
-    for (const Pair& pair : pairs) largest = std::max(largest, pair.error());
-    return largest;
-  }
-};
+struct ReductionError;
 
 /// Reduces a system.
 ///
@@ -94,10 +75,6 @@ struct ReductionError {
 /// @source [Friswell2010], ch. 2; static shapes after [CraigChang1977]
 ReducedSystem reduce(const System& system, const Reduction& how, const std::vector<Vec>& ports,
                      const std::vector<Vec>& others, ReductionError* error = nullptr);
-
-/// Compares eigenvalues and receptances of a reduced system with those of the full one.
-ReductionError reduction_error(const System& system, const ReducedSystem& reduced,
-                               const std::vector<Vec>& ports, double band);
 
 /// A system in given shapes, n x m: Phi^T M Phi and so on.
 ReducedSystem in_shapes(const System& system, const Mat& Phi);

@@ -1,6 +1,6 @@
 // Reduction to few shapes: what it keeps, how far it is off, and that it knows.
 
-#include "libfe/analyses/reduce.hpp"
+#include "libfe/analyses/reduction_error.hpp"
 
 #include <gtest/gtest.h>
 
