@@ -46,12 +46,13 @@ FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat
       const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
       values(p) = inside(values(p), parameter, hardly * parameter.size);
     }
-    FitSystem found{in_shapes_of(*scene, model_at(values)), {}};
+    const Scene here = scene_in_shapes_of(*scene, model_at(values));
+    FitSystem found{here.contacts, {}};
     for (Eigen::Index p = 0; p < values.size(); ++p) {
       const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
       const double middle = inside(values(p), parameter, neighborhood * parameter.size);
       found.slopes.push_back(
-          slope_of(parameter.path, *scene, middle, parameter.size, [&](double value) {
+          slope_of(parameter.path, here, middle, parameter.size, [&](double value) {
             Vec other = values;
             other(p) = value;
             return model_at(other);

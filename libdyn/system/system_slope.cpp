@@ -14,11 +14,21 @@ System system_beside(const Scene& scene, const Assembler& assembler, const Model
   throw NumericalError("the parameter changes the number of degrees of freedom");
 }
 
+Scene scene_in_shapes_of(const Scene& scene, const Model& model) {
+  Assembler assembler(model.structure);
+  System system = system_beside(scene, assembler, model);
+  ReducedSystem reduced = in_shapes(system, scene.reduced.Phi);
+  ContactSystem contacts(assembler, reduced, model.contacts, model.films);
+  return {std::move(assembler), std::move(system), std::move(reduced), {}, std::move(contacts)};
+}
+
 ContactSystem in_shapes_of(const Scene& scene, const Model& model) {
-  const Assembler assembler(model.structure);
-  const System system = system_beside(scene, assembler, model);
-  return ContactSystem(assembler, in_shapes(system, scene.reduced.Phi), model.contacts,
-                       model.films);
+  if (scene.system.Omega == model.speed) {
+    if (const auto assembler = scene.assembler.with_loads_of(model.structure)) {
+      return ContactSystem(*assembler, scene.reduced, model.contacts, model.films);
+    }
+  }
+  return scene_in_shapes_of(scene, model).contacts;
 }
 
 SystemSlope slope_of(std::string name, double value, double size,

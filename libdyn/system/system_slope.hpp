@@ -51,9 +51,12 @@ SystemSlope slope_of(std::string name, double value, double size,
 /// @throws ModelError, NumericalError  as make_scene, and for another number of degrees of freedom
 System system_beside(const Scene& scene, const Assembler& assembler, const Model& model);
 
-/// The system of a model in the shapes Phi that a scene of another one moves in.
+/// A model in the shapes Phi that a scene of another one moves in.
 ///
 /// @throws ModelError, NumericalError  as system_beside
+Scene scene_in_shapes_of(const Scene& scene, const Model& model);
+
+/// Its system alone. Where models differ in contacts, films and loads, nothing is assembled.
 ContactSystem in_shapes_of(const Scene& scene, const Model& model);
 
 /// The slope of a scene by a parameter of its model.

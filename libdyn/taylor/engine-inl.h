@@ -7,6 +7,7 @@
 #define WHIRL_ENGINE_INL_H
 #endif
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,14 @@ namespace HWY_NAMESPACE {
 template <class P, bool = carries_slopes<P>>
 class SlopeCarrier {};
 
+/// Every step has the first order, but for those of slopes (SlopeLimit::choose_order).
+template <class P>
+SeriesOrders series_orders(const BatchOptions& options) {
+  const int first = options.order > 0 ? options.order : order_for(options.tolerance);
+  const bool is_chosen = carries_slopes<P> && options.order == 0 && !options.tangent;
+  return {first, is_chosen ? std::max(order_of_slopes, first) : first};
+}
+
 /// Hands trajectories to lanes and takes all of them through their steps. What a step is made of is
 /// in its parts.
 template <class P>
@@ -40,7 +49,7 @@ class Engine {
 
   Engine(const Pattern& pattern, const BatchOptions& options)
       : options_(options),
-        motion_(pattern, options.order > 0 ? options.order : order_for(options.tolerance),
+        motion_(pattern, series_orders<P>(options),
                 options.exponents || options.tangent || carries_slopes<P>),
         records_(static_cast<size_t>(P::lanes())) {
     if constexpr (knows_tangents<P>) {

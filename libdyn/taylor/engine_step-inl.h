@@ -36,6 +36,7 @@ template <class P>
 HWY_ATTR void Engine<P>::step(const Observer* observer) {
   constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
   constexpr Number brief_step = 1e4 * P::rounding;  // of a revolution; its square is nothing
+  if constexpr (carries_slopes<P>) slopes_->choose_order();
   series_.find();
   if constexpr (carries_slopes<P>) slopes_->begin_step();
   P h = length_.find(motion_);
@@ -132,8 +133,8 @@ HWY_ATTR void Engine<P>::end_revolutions(uint64_t ends, bool is_observed) {
 }
 
 /// Makes columns orthonormal, at ends of revolutions and every so many steps of a lane, so that it
-/// does not depend on the neighbors. Keeps what they have grown by at the ends of revolutions, where
-/// a trajectory may be told to end.
+/// does not depend on the neighbors. Keeps what they have grown by at the ends of revolutions,
+/// where a trajectory may be told to end.
 template <class P>
 HWY_ATTR void Engine<P>::end_of_step_of_exponents(uint64_t ends) {
   constexpr long interval = 32;  // steps

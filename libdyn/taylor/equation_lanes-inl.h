@@ -7,6 +7,8 @@
 #define WHIRL_EQUATION_LANES_INL_H
 #endif
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "libdyn/taylor/clock_lanes-inl.h"
@@ -45,16 +47,37 @@ HWY_ATTR void start_revolution(const ReducedExcitation& from, typename P::Number
   }
 }
 
+/// Adds coefficients times numbers to the sums of rows, column after column.
+///
+/// @param entry  the first coefficient: column by column, one for every row
+/// @param x      vectors of numbers
+/// @param sums   of every vector and row
+/// @return       where the coefficients end
+template <class V, class P, size_t Vectors, size_t Rows>
+HWY_ATTR HWY_INLINE const P* add_products(const P* entry, const std::vector<int>& columns,
+                                          const std::array<const P*, Vectors>& x,
+                                          P (&sums)[Vectors][Rows]) {
+  for (const int j : columns) {
+    for (size_t v = 0; v < Vectors; ++v) {
+      for (size_t r = 0; r < Rows; ++r) sums[v][r] = fma(as<V>(entry[r]), x[v][j], sums[v][r]);
+    }
+    entry += Rows;
+  }
+  return entry;
+}
+
 /// eta'' = f0 + fc cos(phase) + fs sin(phase) - [K D] y - ..., with what is not zero in any lane.
 template <class P>
 struct EquationLanes {
   const Pattern& pattern;
   std::vector<P> K, D;  ///< diagonals
-  std::vector<P> A;     ///< of [K D] beside them, as pattern.off_diagonal
+  std::vector<P> A;     ///< of [K D] beside them, as pattern.coupled
   std::vector<P> f0, fc, fs;
   std::vector<OtherLoadLanes<P>> other_loads;  ///< as many as any lane has
-  int orders;                                  ///< of the series of the load
+  int orders;                                  ///< of the series of the load, at most
   std::vector<P> load_terms;                   ///< its coefficients, order after order
+  bool linear_is_flat = false;                 ///< no coefficient has slopes that numbers carry
+  bool damping_is_flat = false;                ///< nor has D
   std::vector<P> damping;                      ///< (k + 1) D for k = 0, 1, ..., of Pattern::bodies
 
   explicit EquationLanes(const Pattern& of, int orders_of_load = 0)
@@ -94,13 +117,19 @@ struct EquationLanes {
                  typename P::Number(k + 1.0) * typename P::Number(s.D()(i, i)));
       }
     }
-    for (const Pattern::OffDiagonal& row : pattern.off_diagonal) {
-      P* entry = A.data() + row.begin;
-      for (const int j : row.of_x) set_lane(*entry++, l, s.K()(row.i, j));
-      for (const int j : row.of_rate) set_lane(*entry++, l, s.D()(row.i, j));
+    for (const Pattern::CoupledRows& rows : pattern.coupled) {
+      P* entry = A.data() + rows.begin;
+      const auto load_columns = [&](const Mat& of, const std::vector<int>& columns) {
+        for (const int j : columns) {
+          for (const int i : rows.rows) set_lane(*entry++, l, i == j ? 0.0 : of(i, j));
+        }
+      };
+      load_columns(s.K(), rows.of_x);
+      load_columns(s.D(), rows.of_rate);
     }
   }
 
+  HWY_ATTR void look_for_slopes(bool clock_is_flat);
   /// Tells the loads of other frequencies that a lane begins a revolution.
   HWY_ATTR void begin_revolution(const ContactSystem& s, typename P::Number rate_of_phase,
                                  long revolution, int l) {
@@ -110,23 +139,49 @@ struct EquationLanes {
   }
 
   template <class V>
-  HWY_ATTR inline void oscillate(const V& rate, const V& angle, const std::vector<P>& cosines,
-                                 const std::vector<P>& sines, const auto& put) const;
+  HWY_ATTR inline void oscillate(int terms, const V& rate, const V& angle,
+                                 const std::vector<P>& cosines, const std::vector<P>& sines,
+                                 const auto& put) const;
   template <class V>
-  HWY_ATTR void find_load(const ClockLanes<P>& clock);
-  template <class V>
+  HWY_ATTR void find_load(const ClockLanes<P>& clock, int terms);
+  template <class V, class W>
   HWY_ATTR inline void accelerate(int k, const P* now, const P* rate, P* to) const;
+  template <int Rows, class V, class W>
+  HWY_ATTR inline void couple(const Pattern::CoupledRows& rows, const PlainOf<P>& whole,
+                              const P* now, const P* rate, P* to) const;
 };
+
+/// Finds what has no slopes.
+///
+/// @param clock_is_flat  whether the time has none
+template <class P>
+HWY_ATTR void EquationLanes<P>::look_for_slopes(bool clock_is_flat) {
+  damping_is_flat = are_flat(D);
+  linear_is_flat = clock_is_flat;
+  for (const auto* v : {&K, &f0, &fc, &fs}) linear_is_flat = linear_is_flat && are_flat(*v);
+  for (const OtherLoadLanes<P>& o : other_loads) {
+    linear_is_flat = linear_is_flat && is_flat(o.rate) && are_flat(o.fc) && are_flat(o.fs);
+  }
+  for (const Pattern::CoupledRows& rows : pattern.coupled) {
+    const auto begin = A.begin() + rows.begin;
+    const auto of_rate = begin + static_cast<long>(rows.rows.size() * rows.of_x.size());
+    linear_is_flat = linear_is_flat && are_flat(std::span<const P>(begin, of_rate));
+    damping_is_flat =
+        damping_is_flat && are_flat(std::span<const P>(of_rate, begin + rows.coefficients()));
+  }
+  linear_is_flat = linear_is_flat && damping_is_flat;
+}
 
 /// Coefficients of  fc cos(angle) + fs sin(angle),  whose angle moves at a rate:
 ///
 ///   f_{k+2} = -rate^2 f_k / ((k + 1) (k + 2))
 ///
+/// @param terms           how many coefficients
 /// @param cosines, sines  fc and fs of the coordinates
 /// @param put             is called with a coordinate, an order and the coefficient
 template <class P>
 template <class V>
-HWY_ATTR inline void EquationLanes<P>::oscillate(const V& rate, const V& angle,
+HWY_ATTR inline void EquationLanes<P>::oscillate(int terms, const V& rate, const V& angle,
                                                  const std::vector<P>& cosines,
                                                  const std::vector<P>& sines,
                                                  const auto& put) const {
@@ -134,14 +189,14 @@ HWY_ATTR inline void EquationLanes<P>::oscillate(const V& rate, const V& angle,
   sin_cos(angle, sine, cosine);
   const V curvature = -(rate * rate);
   V factors[P::most_terms];
-  for (int k = 0; k < orders - 1; ++k) factors[k] = PlainOf<V>(twice_integrated<V>(k)) * curvature;
+  for (int k = 0; k < terms - 1; ++k) factors[k] = PlainOf<V>(twice_integrated<V>(k)) * curvature;
   for (const int i : pattern.forced) {
     const V &of_cosine = as<V>(cosines[static_cast<size_t>(i)]),
             &of_sine = as<V>(sines[static_cast<size_t>(i)]);
     V now = fma(of_cosine, cosine, of_sine * sine);
     V next = rate * fma(of_sine, cosine, -(of_cosine * sine));
     put(i, 0, now);
-    for (int k = 1; k < orders; ++k) {
+    for (int k = 1; k < terms; ++k) {
       put(i, k, next);
       const V after = factors[k - 1] * now;
       now = next;
@@ -152,40 +207,56 @@ HWY_ATTR inline void EquationLanes<P>::oscillate(const V& rate, const V& angle,
 
 /// Coefficients of the load; where it does not turn they are zero from the second on.
 ///
+/// @param terms  how many, up to `orders`
 /// @tparam V  P, or its value alone: slopes are left as they are
 template <class P>
 template <class V>
-HWY_ATTR void EquationLanes<P>::find_load(const ClockLanes<P>& clock) {
+HWY_ATTR void EquationLanes<P>::find_load(const ClockLanes<P>& clock, int terms) {
   const auto load = [&](int i, int k) HWY_ATTR -> V& {
     return as<V>(load_terms[static_cast<size_t>(k * pattern.n + i)]);
   };
-  oscillate<V>(as<V>(clock.rate), clock.template angle<V>(), fc, fs,
+  oscillate<V>(terms, as<V>(clock.rate), clock.template angle<V>(), fc, fs,
                [&](int i, int k, const V& f)
                    HWY_ATTR { load(i, k) = k == 0 ? f + as<V>(f0[static_cast<size_t>(i)]) : f; });
   for (const OtherLoadLanes<P>& o : other_loads) {
-    oscillate<V>(as<V>(o.rate), fma(as<V>(o.rate), as<V>(clock.time), as<V>(o.start)), o.fc, o.fs,
-                 [&](int i, int k, const V& f) HWY_ATTR { load(i, k) = load(i, k) + f; });
+    oscillate<V>(terms, as<V>(o.rate), fma(as<V>(o.rate), as<V>(clock.time), as<V>(o.start)), o.fc,
+                 o.fs, [&](int i, int k, const V& f) HWY_ATTR { load(i, k) = load(i, k) + f; });
   }
 }
 
 /// Coefficient k of the acceleration, contacts and films apart.
 ///
 /// @param now, rate  coefficients k and k + 1 of the coordinates: x' has (k + 1) x_{k+1}
-/// @tparam V         P, or its value alone where the linear part has no slopes
+/// @tparam V, W      P, or its value alone where K, D have no slopes
 template <class P>
-template <class V>
+template <class V, class W>
 HWY_ATTR inline void EquationLanes<P>::accelerate(int k, const P* now, const P* rate, P* to) const {
   const P *kd = K.data(), *dd = D.data(), *load = load_terms.data() + k * pattern.n;
   const PlainOf<P> whole(k + 1.0);
   for (int i = 0; i < pattern.n; ++i) {
-    to[i] = fnma(whole * as<V>(dd[i]), rate[i], fnma(as<V>(kd[i]), now[i], load[i]));
+    to[i] = fnma(whole * as<W>(dd[i]), rate[i], fnma(as<V>(kd[i]), now[i], load[i]));
   }
-  for (const Pattern::OffDiagonal& row : pattern.off_diagonal) {
-    const P* a = A.data() + row.begin;
-    P of_x(0.0), of_rate(0.0);
-    for (const int j : row.of_x) of_x = fma(as<V>(*a++), now[j], of_x);
-    for (const int j : row.of_rate) of_rate = fma(as<V>(*a++), rate[j], of_rate);
-    to[row.i] = to[row.i] - fma(whole, of_rate, of_x);
+  for (const Pattern::CoupledRows& rows : pattern.coupled) {
+    rows.rows.size() == 1
+        ? couple<1, V, W>(rows, whole, now, rate, to)
+        : couple<Pattern::CoupledRows::side_by_side, V, W>(rows, whole, now, rate, to);
+  }
+}
+
+/// What coefficients beside the diagonals do to the acceleration of rows.
+template <class P>
+template <int Rows, class V, class W>
+HWY_ATTR inline void EquationLanes<P>::couple(const Pattern::CoupledRows& rows,
+                                              const PlainOf<P>& whole, const P* now, const P* rate,
+                                              P* to) const {
+  P of_x[1][Rows], of_rate[1][Rows];
+  for (int r = 0; r < Rows; ++r) of_x[0][r] = of_rate[0][r] = P(0.0);
+  const P* entry = A.data() + rows.begin;
+  entry = add_products<V>(entry, rows.of_x, std::array{now}, of_x);
+  add_products<W>(entry, rows.of_rate, std::array{rate}, of_rate);
+  for (int r = 0; r < Rows; ++r) {
+    P& sum = to[rows.rows[static_cast<size_t>(r)]];
+    sum = sum - fma(whole, of_rate[0][r], of_x[0][r]);
   }
 }
 

@@ -41,7 +41,7 @@ HWY_ATTR void MotionSeries<P>::find_of_bodies(Law& law) {
   const int N = m_.N;
   ContactLanes<P>& c = m_.contacts[0];
   std::copy(m_.y.begin(), m_.y.end(), m_.term(0));
-  m_.equations.template find_load<V>(m_.clock);
+  m_.equations.template find_load<V>(m_.clock, N + 1);
   // none of these overlap, which the compiler cannot know of registers in memory
   P* __restrict dx = c.dx, * __restrict dy = c.dy, * __restrict s = c.s, * __restrict r = c.r;
   P* __restrict N_of = c.N, * __restrict q = c.q;

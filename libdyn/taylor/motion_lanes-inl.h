@@ -21,13 +21,19 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// Orders of series: that of the first step, and the largest one of any.
+struct SeriesOrders {
+  int first, most;
+};
+
 /// A motion per lane: its equations, its state at the start of a step, its series in the step.
 template <class P>
 struct MotionLanes {
   using Number = typename P::Number;
 
   const Pattern& pattern;
-  int N, n;             ///< order of the series, coordinates
+  int N, n;             ///< order of the series in this step, coordinates
+  int most;             ///< largest order that there is memory for
   uint64_t active = 0;  ///< lanes that have a motion
 
   ClockLanes<P> clock;
@@ -36,27 +42,26 @@ struct MotionLanes {
   std::vector<uint64_t> alike;  ///< per pair of Pattern::alike, the lanes in which they slip alike
   std::vector<std::unique_ptr<BladeLanes<P>>> disks;  ///< of contacts with blades
   std::vector<std::unique_ptr<FilmLanes<P>>> films;
-  std::vector<P> scale;         ///< 1 / state_scale of the coordinates
-  bool is_analytic = true;      ///< all laws are, and there is no film
-  bool linear_is_flat = false;  ///< the linear part has no slopes that numbers carry
+  std::vector<P> scale;     ///< 1 / state_scale of the coordinates
+  bool is_analytic = true;  ///< all laws are, and there is no film
 
   std::vector<P> y;      ///< states at the start of the step
   std::vector<P> terms;  ///< coefficients 0 to N + 2 of the coordinates, order after order
 
-  MotionLanes(const Pattern& of, int order, bool has_slopes)
-      : pattern(of), N(order), n(of.n), equations(of, order + 1) {
-    terms.assign(static_cast<size_t>(n) * static_cast<size_t>(N + 3), P(0.0));
+  MotionLanes(const Pattern& of, SeriesOrders orders, bool has_slopes)
+      : pattern(of), N(orders.first), n(of.n), most(orders.most), equations(of, most + 1) {
+    terms.assign(static_cast<size_t>(n) * static_cast<size_t>(most + 3), P(0.0));
     scale.assign(static_cast<size_t>(n), P(1.0));
     y.assign(static_cast<size_t>(layout().size()), P(0.0));
     contacts.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) {
-      contacts.emplace_back(rows, N, has_slopes);
+      contacts.emplace_back(rows, most, has_slopes);
       is_analytic = is_analytic && rows.is_analytic;
     }
     disks = disks_of(pattern, contacts);
     alike.assign(pattern.alike.size(), 0);
     for (const Pattern::FilmRows& rows : pattern.films) {
-      films.push_back(std::make_unique<FilmLanes<P>>(rows, N, has_slopes));
+      films.push_back(std::make_unique<FilmLanes<P>>(rows, most, has_slopes));
       is_analytic = false;  // near the wall steps get as short as at a surface
     }
   }

@@ -55,8 +55,9 @@ HWY_ATTR void MotionSeries<P>::find() {
   with_alternative(laws_[0], [&](auto& law) HWY_ATTR {
     if constexpr (std::remove_cvref_t<decltype(law)>::is_of_bodies) {
       if constexpr (carries_slopes<P>) {
-        m_.linear_is_flat&& m_.contacts[0].rows_are_flat ? find_of_bodies<2, false, PlainOf<P>>(law)
-                                                         : find_of_bodies<2, false, P>(law);
+        m_.equations.linear_is_flat&& m_.contacts[0].rows_are_flat
+            ? find_of_bodies<2, false, PlainOf<P>>(law)
+            : find_of_bodies<2, false, P>(law);
       } else {
         m_.pattern.is_isotropic ? find_of_bodies<2, true, P>(law)
                                 : find_of_bodies<2, false, P>(law);
@@ -70,8 +71,8 @@ template <class P>
 HWY_ATTR void MotionSeries<P>::find_of_any() {
   std::copy(m_.y.begin(), m_.y.end(), m_.term(0));
   const int N = m_.N;
-  m_.linear_is_flat ? m_.equations.template find_load<PlainOf<P>>(m_.clock)
-                    : m_.equations.template find_load<P>(m_.clock);
+  m_.equations.linear_is_flat ? m_.equations.template find_load<PlainOf<P>>(m_.clock, N + 1)
+                              : m_.equations.template find_load<P>(m_.clock, N + 1);
   const bool any_sticks = m_.any_sticks();
   for (const auto& disk : m_.disks) {
     disk->start(m_.clock.time);
@@ -92,9 +93,16 @@ HWY_ATTR void MotionSeries<P>::find_of_any() {
       if (c.rub && c.is_ahead) c.rub->velocity(m_.term(k + 1), k);
       if (c.is_evaluated) c.force(laws_[i], k);
     }
-    m_.linear_is_flat
-        ? m_.equations.template accelerate<PlainOf<P>>(k, m_.term(k), m_.term(k + 1), acceleration)
-        : m_.equations.template accelerate<P>(k, m_.term(k), m_.term(k + 1), acceleration);
+    const auto accelerate = [&]<class V, class W>() HWY_ATTR {
+      m_.equations.template accelerate<V, W>(k, m_.term(k), m_.term(k + 1), acceleration);
+    };
+    using Plain = PlainOf<P>;
+    if (m_.equations.linear_is_flat)
+      accelerate.template operator()<Plain, Plain>();
+    else if (m_.equations.damping_is_flat)
+      accelerate.template operator()<P, Plain>();
+    else
+      accelerate.template operator()<P, P>();
     for (const ContactLanes<P>& c : m_.contacts) {
       if (!c.is_evaluated) continue;
       c.push(acceleration, c.fx, c.fy);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libdyn/flow/linear_flow.hpp"
 #include "libdyn/system/number_slopes.hpp"
 #include "libdyn/taylor/slope_run.hpp"
 
@@ -70,6 +71,7 @@ MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start
   result.end = start;
   if (times.empty()) return result;
   const long revolutions = static_cast<long>(std::ceil(times.back() / system.period())) + 2;
+  const double fastest = fastest_mode(system);
   std::size_t first = 0;
   do {  // without columns, the motion alone
     const std::size_t count = std::min(columns_of_pass, columns.size() - first);
@@ -78,6 +80,7 @@ MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start
                  .times = times,
                  .held = options.held,
                  .near = options.near,
+                 .fastest = fastest,
                  .deviations = in_pairs(options.deviations)};
     Trajectory t{.system = &system, .state = start, .revolutions = revolutions};
     run_slopes(pattern_of(system, run.columns),

@@ -103,8 +103,7 @@ constexpr bool only_blade_rows_turn(std::type_identity<std::variant<Geometry...>
 Pattern begin_pattern(const ContactSystem& first) {
   Pattern p;
   p.n = first.coordinates();
-  p.off_diagonal.resize(static_cast<std::size_t>(p.n));
-  for (int i = 0; i < p.n; ++i) p.off_diagonal[static_cast<std::size_t>(i)].i = i;
+  for (int i = 0; i < p.n; ++i) p.coupled.push_back({.rows = {i}, .of_x = {}, .of_rate = {}});
   p.contacts.resize(first.contacts().size());
   for (std::size_t c = 0; c < p.contacts.size(); ++c) {
     const ReducedContact& contact = first.contacts()[c];
@@ -166,11 +165,12 @@ void add_coordinates(Pattern& p, const ContactSystem& s) {
       if (o.cosine(i) != 0.0 || o.sine(i) != 0.0) insert(p.forced, i);
     }
   }
-  for (Pattern::OffDiagonal& row : p.off_diagonal) {
+  for (Pattern::CoupledRows& row : p.coupled) {
+    const int i = row.rows[0];
     for (int j = 0; j < p.n; ++j) {
-      if (j == row.i) continue;
-      if (s.K()(row.i, j) != 0.0) insert(row.of_x, j);
-      if (s.D()(row.i, j) != 0.0) insert(row.of_rate, j);
+      if (j == i) continue;
+      if (s.K()(i, j) != 0.0) insert(row.of_x, j);
+      if (s.D()(i, j) != 0.0) insert(row.of_rate, j);
     }
   }
 }
@@ -185,6 +185,27 @@ void fill_directions(std::vector<Rows>& list) {
 }
 
 }  // namespace
+
+std::vector<Pattern::CoupledRows> side_by_side(const std::vector<Pattern::CoupledRows>& rows) {
+  constexpr std::size_t most = Pattern::CoupledRows::side_by_side;
+  constexpr double enough = 0.7;  // of the coefficients, that are there
+  std::vector<Pattern::CoupledRows> found;
+  for (std::size_t first = 0; first < rows.size();) {
+    Pattern::CoupledRows joined;
+    int own = 0;
+    for (std::size_t r = first; r < std::min(first + most, rows.size()); ++r) {
+      joined.rows.push_back(rows[r].rows[0]);
+      for (const int j : rows[r].of_x) insert(joined.of_x, j);
+      for (const int j : rows[r].of_rate) insert(joined.of_rate, j);
+      own += rows[r].coefficients();
+    }
+    const bool fits = joined.rows.size() == most && own >= enough * joined.coefficients();
+    const Pattern::CoupledRows& next = fits ? joined : rows[first];
+    if (next.coefficients() > 0) found.push_back(next);
+    first += next.rows.size();
+  }
+  return found;
+}
 
 Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
   if (systems.empty()) return {};
@@ -204,11 +225,10 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
   }
   fill_directions(p.contacts);
   fill_directions(p.films);
-  std::erase_if(p.off_diagonal,
-                [](const OffDiagonal& row) { return row.of_x.empty() && row.of_rate.empty(); });
-  for (OffDiagonal& row : p.off_diagonal) {
-    row.begin = p.off_diagonals;
-    p.off_diagonals += static_cast<int>(row.of_x.size() + row.of_rate.size());
+  p.coupled = side_by_side(p.coupled);
+  for (CoupledRows& rows : p.coupled) {
+    rows.begin = p.off_diagonals;
+    p.off_diagonals += rows.coefficients();
   }
   p.alike = alike_in(systems);
   p.bodies = bodies_in(p);

@@ -10,11 +10,18 @@ namespace whirl::inline dyn {
 
 /// Where the nonzero coefficients of the equations of motion are.
 struct Pattern {
-  /// Coefficients of K and D beside their diagonals, of one row.
-  struct OffDiagonal {
-    int i = 0;
-    int begin = 0;                   ///< of this row among all of them, K before D
-    std::vector<int> of_x, of_rate;  ///< columns of K, of D
+  /// Rows of K and D with coefficients beside their diagonals: one, or several whose sums are made
+  /// side by side.
+  struct CoupledRows {
+    static constexpr int side_by_side = 4;
+    std::vector<int> rows;
+    std::vector<int> of_x, of_rate;  ///< columns of K, of D, in which any of the rows has one
+    /// Of their coefficients among all of them: column by column, one for every row, K before D.
+    int begin = 0;
+
+    int coefficients() const {
+      return static_cast<int>(rows.size() * (of_x.size() + of_rate.size()));
+    }
   };
   struct ContactRows {
     std::vector<int> of_x, of_y;                ///< coordinates that move the contact in x, in y
@@ -42,10 +49,10 @@ struct Pattern {
   };
 
   int n = 0;
-  std::vector<int> forced;                ///< coordinates with a load that changes
-  std::size_t other_loads = 0;            ///< loads of other frequencies, the most of any system
-  std::vector<OffDiagonal> off_diagonal;  ///< rows that have any
-  int off_diagonals = 0;                  ///< coefficients in all of them
+  std::vector<int> forced;      ///< coordinates with a load that changes
+  std::size_t other_loads = 0;  ///< loads of other frequencies, the most of any system
+  std::vector<CoupledRows> coupled;
+  int off_diagonals = 0;  ///< coefficients in all of them
   std::vector<ContactRows> contacts;
   std::vector<FilmRows> films;
 
@@ -71,6 +78,13 @@ struct Pattern {
   /// @throws NumericalError  if the systems differ in coordinates, contacts, films or kinds of laws
   static Pattern of(std::span<const ContactSystem* const> systems);
 };
+
+/// Joins rows whose coefficients are in much the same columns: every value is then loaded once for
+/// all of them, and no sum waits for another one. What a row lacks in a column is zero, which
+/// changes no sum. Rows without coefficients are left out.
+///
+/// @param rows  one by one, in order
+std::vector<Pattern::CoupledRows> side_by_side(const std::vector<Pattern::CoupledRows>& rows);
 
 /// Pattern of the systems of trajectories.
 Pattern pattern_of(std::span<const Trajectory> trajectories);

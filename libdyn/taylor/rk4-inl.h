@@ -237,10 +237,14 @@ class Rk4Lanes {
         a[i] = a[i] + fma(of.fc[ui], swings_[o].cosine, of.fs[ui] * swings_[o].sine);
       }
     }
-    for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
-      const P* factor = e.A.data() + row.begin;
-      for (const int j : row.of_x) a[row.i] = fnma(*factor++, y[j], a[row.i]);
-      for (const int j : row.of_rate) a[row.i] = fnma(*factor++, rate[j], a[row.i]);
+    for (const Pattern::CoupledRows& rows : pattern_.coupled) {
+      const P* factor = e.A.data() + rows.begin;
+      for (const int j : rows.of_x) {
+        for (const int i : rows.rows) a[i] = fnma(*factor++, y[j], a[i]);
+      }
+      for (const int j : rows.of_rate) {
+        for (const int i : rows.rows) a[i] = fnma(*factor++, rate[j], a[i]);
+      }
     }
     for (const auto& disk : disks_) {
       disk->sine[0] = disk->turns * sine;

@@ -29,12 +29,14 @@ class SlopeCarrier<P, true> {
   /// @param variation  with deviations; else null
   SlopeCarrier(MotionLanes<P>& of, Variation<P>* variation, const BatchOptions& options,
                SlopeRun& run)
-      : m_(of), N(of.N), run_(run), limit_(of, options.tolerance), grazes_(of, run) {
+      : m_(of), run_(run), limit_(of, options.tolerance), grazes_(of, run) {
     if (variation) deviations_ = std::make_unique<Deviations<P>>(of, *variation);
   }
 
   HWY_ATTR void load(const LaneRecord& record);
   HWY_ATTR void begin_revolution(long revolution);
+  /// Before the series of a step.
+  void choose_order() { limit_.choose_order(); }
   /// Once the series of a step are known.
   HWY_ATTR void begin_step() {
     if (deviations_) deviations_->jump();
@@ -60,7 +62,6 @@ class SlopeCarrier<P, true> {
   HWY_ATTR void jump(size_t i, EventKind kind, const Saltation& s);
 
   MotionLanes<P>& m_;
-  int N;
   SlopeRun& run_;
   const LaneRecord* record_ = nullptr;
   SlopeLimit<P> limit_;
@@ -95,17 +96,11 @@ HWY_ATTR void SlopeCarrier<P, true>::load(const LaneRecord& record) {
       }
     }
   }
-  const auto& e = m_.equations;
-  m_.linear_is_flat = !deviations_ && is_flat(m_.clock.rate);
-  for (const auto* v : {&e.K, &e.D, &e.A, &e.f0, &e.fc, &e.fs})
-    m_.linear_is_flat = m_.linear_is_flat && are_flat(*v);
-  for (const OtherLoadLanes<P>& o : e.other_loads) {
-    m_.linear_is_flat = m_.linear_is_flat && is_flat(o.rate) && are_flat(o.fc) && are_flat(o.fs);
-  }
+  m_.equations.look_for_slopes(!deviations_ && is_flat(m_.clock.rate));
   for (ContactLanes<P>& c : m_.contacts) {
     c.rows_are_flat = are_flat(c.ux) && are_flat(c.uy) && are_flat(c.bx) && are_flat(c.by);
   }
-  limit_.load(s);
+  limit_.load(s, run_.fastest);
   stretch_ = -(m_.clock.rate.s * wide(typename P::Value(1.0) / m_.clock.rate.x));
   if (deviations_) deviations_->load(run_);
 }

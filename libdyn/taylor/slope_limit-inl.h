@@ -18,38 +18,44 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
-/// Shortens steps where slopes move faster than the motion.
+/// Shortens steps where slopes move faster than the motion, and chooses how many terms they have.
 template <class P>
 class SlopeLimit {
  public:
   SlopeLimit(MotionLanes<P>& of, double tolerance)
       : m_(of),
-        N(of.N),
+        first_order_(of.N),
         log2_tolerance_(std::log2(tolerance)),
-        reach_(reach_of_slopes(tolerance, of.N)) {}
+        first_reach_(reach_of_slopes(tolerance, of.N)),
+        most_reach_(reach_of_slopes(tolerance, of.most)) {}
 
-  void load(const ContactSystem& s) {
-    const double fastest = fastest_mode(s);
+  /// @param fastest  rate of the linear part, see fastest_mode [rad/s]
+  void load(const ContactSystem& s, double fastest) {
     fastest2_ = fastest * fastest;
     gain_.clear();
     for (const ReducedContact& c : s.contacts()) gain_.push_back(contact_gain(c));
     film_slopes_.resize(s.films().size());
   }
   HWY_ATTR P find(const P& h);
+  /// Decides the order of the next step, by values alone.
+  void choose_order() { m_.N = is_slow_ ? m_.most : first_order_; }
 
  private:
   MotionLanes<P>& m_;
-  int N;
+  int first_order_;
+  bool is_slow_ = false;  // whether slopes make steps much shorter than the motion needs
   double log2_tolerance_;
-  double reach_;              // largest rate times step, from reach_of_slopes
-  double fastest2_ = 0.0;     // square of the fastest rate of the linear part [1/s^2]
-  std::vector<double> gain_;  // per contact, largest eigenvalue of U B [1/kg]
+  double first_reach_, most_reach_;  // largest rate times step, from reach_of_slopes
+  double fastest2_ = 0.0;            // square of the fastest rate of the linear part [1/s^2]
+  std::vector<double> gain_;         // per contact, largest eigenvalue of U B [1/kg]
   std::vector<typename Tangents<P>::FilmSlopes> film_slopes_;
 };
 
 /// Limits the step where slopes move faster than the motion itself, whichever are asked for.
 template <class P>
 HWY_ATTR P SlopeLimit<P>::find(const P& h) {
+  constexpr double much_shorter = 0.5, shorter = 0.8;  // apart, so that the order stays
+  const int N = m_.N;
   const double step = lane(h, 0);
   double square = fastest2_, longest = step;
   const auto shorten = [&](double last) {
@@ -88,7 +94,10 @@ HWY_ATTR P SlopeLimit<P>::find(const P& h) {
     square += damping * damping + gain * (lane(J.size(0), 0) + lane(J.size(1), 0) * step);
     shorten(gain * lane(J.size(N), 0) / (lane(m_.clock.rate, 0) * (N + 1.0)));
   }
-  return P(std::min(longest, reach_ / std::sqrt(std::max(square, 1e-200))));
+  const double reach = N == first_order_ ? first_reach_ : most_reach_;
+  const double by_slopes = reach / std::sqrt(std::max(square, 1e-200));
+  is_slow_ = by_slopes < (is_slow_ ? shorter : much_shorter) * longest;
+  return P(std::min(longest, by_slopes));
 }
 
 }  // namespace HWY_NAMESPACE

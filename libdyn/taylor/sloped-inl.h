@@ -8,7 +8,7 @@
 #endif
 
 #include <algorithm>
-#include <vector>
+#include <span>
 
 #include "libdyn/system/system_slope.hpp"
 #include "libdyn/taylor/events-inl.h"
@@ -122,7 +122,7 @@ HWY_ATTR inline Sloped fnma(const Sloped::Value& a, const Sloped& b, const Slope
 HWY_ATTR inline bool is_flat(const Sloped& a) {
   return !any(a.s, less(Sloped::Slopes(0.0), abs(a.s)));
 }
-HWY_ATTR inline bool are_flat(const std::vector<Sloped>& all) {
+HWY_ATTR inline bool are_flat(std::span<const Sloped> all) {
   for (const Sloped& a : all) {
     if (!is_flat(a)) return false;
   }

@@ -49,15 +49,21 @@ struct ModelFamily::State {
   Model base;
   std::vector<ParameterAxis> axes;
   ConfigNode root;
-  NamedFiles files;         ///< none: the model has its tables in it
-  bool is_light = false;    ///< no value is one of the rotor's tables
-  bool same_modes = false;  ///< nor a film, about whose equilibrium modes are
+  NamedFiles files;            ///< none: the model has its tables in it
+  std::vector<bool> of_rotor;  ///< per axis, whether its value is in one of the rotor's tables
+  bool same_modes = false;     ///< nor a film, about whose equilibrium modes are
 
   struct Known {
     std::vector<double> values;
     std::shared_ptr<const Scene> scene;
   };
+  /// A model whose rotor was read from these values.
+  struct ReadRotor {
+    std::vector<double> values;
+    std::shared_ptr<const Model> model;
+  };
   std::mutex mutex;
+  ReadRotor rotor;                          ///< the last one
   std::shared_ptr<const Scene> foundation;  ///< of the last member that was assembled or reduced
   std::deque<Known> last;
   struct KnownModes {
@@ -74,14 +80,19 @@ ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
   state_->axes = std::move(axes);
   state_->root = parse_toml(base.source, base.path);
   state_->files = NamedFiles::none_in(std::filesystem::path(base.path).parent_path());
-  state_->is_light = state_->same_modes = true;
+  state_->same_modes = true;
   for (const ParameterAxis& axis : state_->axes) {
+    bool is_of_rotor = false;
     for (const std::string& path : axis.paths()) {
       const ModelTable* const table = table_of(path);
       const bool is_light = table && !table->is_of_rotor;
-      state_->is_light = state_->is_light && is_light;
+      is_of_rotor = is_of_rotor || !is_light;
       state_->same_modes = state_->same_modes && is_light && table->name != "oil_film";
     }
+    state_->of_rotor.push_back(is_of_rotor);
+  }
+  if (std::ranges::find(state_->of_rotor, true) == state_->of_rotor.end()) {
+    state_->rotor.model = std::make_shared<const Model>(base);
   }
 }
 
@@ -94,14 +105,27 @@ Model ModelFamily::model(std::span<const double> values) const {
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (const std::string& set : state_->axes[i].assignments_of(values[i])) set_value(root, set);
   }
-  const Model& base = state_->base;
-  Model member;
-  if (state_->is_light) member = ModelBuilder(root, state_->files).rebuild(base);
-  if (!state_->is_light || !same_ports(member, base)) {
-    member = ModelBuilder(root, state_->files).build();
+  std::vector<double> of_rotor;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (state_->of_rotor[i]) of_rotor.push_back(values[i]);
   }
-  member.source = base.source;
-  member.path = base.path;
+  std::shared_ptr<const Model> on;
+  {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->rotor.values == of_rotor) on = state_->rotor.model;
+  }
+  Model member;
+  if (on) member = ModelBuilder(root, state_->files).rebuild(*on);
+  if (!on || !same_ports(member, *on)) {
+    member = ModelBuilder(root, state_->files).build();
+    if (!of_rotor.empty()) {
+      auto read = std::make_shared<const Model>(member);
+      const std::lock_guard lock(state_->mutex);
+      state_->rotor = {std::move(of_rotor), std::move(read)};
+    }
+  }
+  member.source = state_->base.source;
+  member.path = state_->base.path;
   return member;
 }
 

@@ -472,6 +472,26 @@ TEST(MotionSlopes, AreInLanesWhatTheyAreAlone) {
   EXPECT_EQ(motion.events.size(), together.events.size());
 }
 
+// In a permanent rub slopes move faster than the motion: their steps have more terms, and are
+// fewer. Impacts end steps before that counts.
+TEST(MotionSlopes, TakeMoreTermsWhereTheyAloneMakeStepsShort) {
+  const auto found = [](const RotorStator& rotor, double tolerance, int order) {
+    const Model model = rotor.model();
+    const Scene scene = make_scene(model);
+    const MotionState start = settled(scene, {.model = model, .settle = 100});
+    const std::vector parameters{slope(scene, model, stiffness())};
+    return motion_slopes(scene.contacts, start, {{10.0 * scene.contacts.period()}}, parameters,
+                         {.tolerance = tolerance, .order = order, .by_start = false});
+  };
+  constexpr double tolerance = 1e-10;
+  const int usual = order_for(tolerance);
+  const MotionSlopes rub = found(test::P3, tolerance, 0);
+  EXPECT_LT(rub.cost.steps, found(test::P3, tolerance, usual).cost.steps / 2);
+  EXPECT_LT(difference(rub.by_parameter[0], found(test::P3, 1e-15, 20).by_parameter[0]), 1e-7);
+  const MotionSlopes impacts = found(test::P1, tolerance, 0);
+  EXPECT_EQ(impacts.by_parameter[0], found(test::P1, tolerance, usual).by_parameter[0]);
+}
+
 // Derivatives by the start are the tangents of the engine.
 TEST(MotionSlopes, ByTheStartAreItsTangents) {
   const DampedImpacts m;

@@ -147,6 +147,25 @@ TEST(SystemSlope, HoldsTheShapesOfItsScene) {
   EXPECT_FALSE(is_near(other.K(), same.K()));
 }
 
+// Where only contacts and loads differ, nothing is assembled: K and D are those of the scene to the
+// last bit, and the rest is what assembling makes of it.
+TEST(SystemSlope, TakesTheRotorOfItsSceneOver) {
+  test::TwoDiskRub rotor{};
+  const Scene scene = rotor.scene();
+  Model model = rotor.model();
+  model.contacts[0].friction.mu += 0.1;
+  model.structure.unbalances[0].moment *= 2.0;
+  const ContactSystem found = in_shapes_of(scene, model);
+  EXPECT_EQ(found.K(), scene.contacts.K());
+  EXPECT_EQ(found.D(), scene.contacts.D());
+  const ContactSystem assembled = scene_in_shapes_of(scene, model).contacts;
+  EXPECT_EQ(found.contacts()[0].friction.mu, model.contacts[0].friction.mu);
+  EXPECT_EQ(Mat(found.contacts()[0].U), Mat(assembled.contacts()[0].U));
+  EXPECT_EQ(found.synchronous_load().cosine, assembled.synchronous_load().cosine);
+  model.speed *= 1.1;
+  EXPECT_EQ(in_shapes_of(scene, model).phase_rate(), model.speed);
+}
+
 TEST(SystemSlope, RefusesAnotherNumberOfFreedoms) {
   const Scene scene = MassInRing{}.scene();
   EXPECT_THROW(in_shapes_of(scene, RotorStator{}.model()), NumericalError);

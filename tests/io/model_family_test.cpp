@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libbase/error.hpp"
@@ -196,6 +197,26 @@ TEST(ModelFamily, SeveralParametersGoTogether) {
           make_scene(parse_model(base.source, base.path, sets), ReductionEstimate::no);
       EXPECT_EQ(numbers_of(*family.scene(std::vector{rate, mu})), numbers_of(expected));
     }
+  }
+}
+
+// A rotor that was read from the same values serves again, others do not.
+TEST(ModelFamily, ValuesOfTheRotorGoTogetherWithThoseOfContacts) {
+  const Model base = read_model(two_disk);
+  const std::string contact = "contact." + base.contacts.at(0).name;
+  const ParameterAxis stiffness = axis("bearing.left.stiffness=8e6 N/m"),
+                      friction = axis(contact + ".friction=0.05");
+  const ModelFamily family(base, {stiffness, friction});
+  for (const auto& [k, mu] : {std::pair{6e6, 0.0}, std::pair{6e6, 0.1}, std::pair{9e6, 0.1},
+                              std::pair{6e6, 0.2}, std::pair{9e6, 0.2}}) {
+    std::vector<std::string> sets = stiffness.assignments_of(k);
+    for (const std::string& set : friction.assignments_of(mu)) sets.push_back(set);
+    const Model whole = parse_model(base.source, base.path, sets);
+    const Model member = family.model(std::vector{k, mu});
+    EXPECT_EQ(member.contacts[0].friction.mu, mu);
+    EXPECT_EQ(member.source, base.source);
+    EXPECT_EQ(numbers_of(*family.scene(member)),
+              numbers_of(make_scene(whole, ReductionEstimate::no)));
   }
 }
 
