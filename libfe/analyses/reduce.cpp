@@ -154,7 +154,7 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   for (int modes = how.modes > 0 ? how.modes : std::min(4, most);; modes += 2) {
     reduced = with(std::min(modes, most));
     if (how.modes > 0 && !error) break;
-    if (!whole) whole.emplace(system, ports, band, reduced.size());
+    if (!whole) whole.emplace(system, ports, band);
     found = whole->error_of(reduced);
     found.within_tolerance = std::max(found.eigenvalue(), found.receptance) <= how.tolerance;
     if (found.within_tolerance || modes >= most) break;

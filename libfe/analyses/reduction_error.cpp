@@ -13,10 +13,9 @@ constexpr int fewest_modes = 4, enough_modes = 120;  ///< of which some should b
 
 }  // namespace
 
-WholeSystem::WholeSystem(const System& system, const std::vector<Vec>& ports, double band,
-                         int likely)
+WholeSystem::WholeSystem(const System& system, const std::vector<Vec>& ports, double band)
     : band_(band), ports_(system.size(), std::ssize(ports)) {
-  int wanted = std::max(fewest_modes, likely);
+  int wanted = fewest_modes;
   Modes modes = complex_modes(system, wanted);
   const auto ends_within = [&] {
     return static_cast<int>(modes.oscillatory.size()) == wanted &&

@@ -34,11 +34,10 @@ struct ReductionError {
 /// between its ports. Found once for all reductions.
 class WholeSystem {
  public:
-  /// @param ports   rows of the points whose receptance counts, of the system's size
-  /// @param band    highest frequency of interest [rad/s]
-  /// @param likely  how many modes are looked for at first; more where all of them are in the band
+  /// @param ports  rows of the points whose receptance counts, of the system's size
+  /// @param band   highest frequency of interest [rad/s]
   /// @throws NumericalError  as complex_modes
-  WholeSystem(const System& system, const std::vector<Vec>& ports, double band, int likely = 4);
+  WholeSystem(const System& system, const std::vector<Vec>& ports, double band);
 
   /// Errors of a reduction of this system.
   ReductionError error_of(const ReducedSystem& reduced) const;
