@@ -112,15 +112,15 @@ class Runner:
     def __init__(self, build, place):
         self.build, self.place = build, place
         self.outcomes = collections.defaultdict(list)
-        for name in ("models", "bench", "tests"):
+        for name in ("models", "bench", "tests", "docs"):
             (place / name).symlink_to(ROOT / name)
 
     def run(self, command, sized=""):
         """Runs a command once more; the size of a file that it makes is kept with it."""
         words = shlex.split(command)
-        words[0] = str(self.build / "bin" / words[0])
+        words[0] = str(ROOT / words[0] if "/" in words[0] else self.build / "bin" / words[0])  # a script, or a program
         environment = {"PATH": os.environ["PATH"], "HOME": str(self.place), "TMPDIR": str(self.place), "TERM": "dumb",
-                       "LC_ALL": "C.UTF-8"}
+                       "LC_ALL": "C.UTF-8", "WHIRL_BUILD": str(self.build)}
         with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as errors:
             try:
                 process = subprocess.Popen(words, cwd=self.place, env=environment, stdout=out, stderr=errors)
