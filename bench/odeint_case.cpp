@@ -77,9 +77,8 @@ Numbers solve(const Case& c, double tolerance) {
   const auto stepper =
       odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_dopri5<Numbers>());
   odeint::integrate_adaptive(
-      stepper,
-      [&](const Numbers& from, Numbers& to, double t) { right_hand_side(c, from, to, t); }, y, 0.0,
-      2.0 * std::numbers::pi * revolutions, 1e-3);
+      stepper, [&](const Numbers& from, Numbers& to, double t) { right_hand_side(c, from, to, t); },
+      y, 0.0, 2.0 * std::numbers::pi * revolutions, 1e-3);
   return y;
 }
 
@@ -89,7 +88,9 @@ double error(const Case& c, const Numbers& y) {
   return most;
 }
 
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double processor_time() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 void measure(const Case& c, double tolerance) {
   std::vector<double> times;

@@ -4,7 +4,6 @@ A family of programs has a colour, its members have signs of their own.
 """
 import html
 import math
-import re
 
 from .rows import TARGET, by_program, good
 
@@ -149,8 +148,3 @@ def drawn(panels):
                 words(LEFT, top - 14, "one core; the dashed line is an error of 1e-6", fill="#606060")]
         out += [*panel.axes(), *panel.target(), *panel.curves()]
     return "\n".join([*out, "</svg>"]) + "\n"
-
-
-def without_numbers(svg):
-    """Its words, for tests."""
-    return re.findall(r">([^<>]+)</text>", svg)

@@ -15,7 +15,7 @@ from .rows import Row
 METHODS = ("83dp", "cvode", "qualrk")
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
 MORE = 100  # revolutions of the long run beyond those of the short one
-PIECES = 8  # of a revolution: CVODE takes 500 steps at most from one to the next
+PIECES = 8  # of a revolution: CVODE takes 2000 steps at most from one to the next
 RUNS = 3
 
 

@@ -56,7 +56,8 @@ System system_beside(const Scene& scene, const Assembler& assembler, const Model
 /// @throws ModelError, NumericalError  as system_beside
 Scene scene_in_shapes_of(const Scene& scene, const Model& model);
 
-/// Its system alone. Where models differ in contacts, films and loads, nothing is assembled.
+/// The system of such a scene. Where models differ in contacts, films and loads alone, nothing is
+/// assembled.
 ContactSystem in_shapes_of(const Scene& scene, const Model& model);
 
 /// The slope of a scene by a parameter of its model.

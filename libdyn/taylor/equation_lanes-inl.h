@@ -77,7 +77,7 @@ struct EquationLanes {
   int orders;                                  ///< of the series of the load, at most
   std::vector<P> load_terms;                   ///< its coefficients, order after order
   bool linear_is_flat = false;                 ///< no coefficient has slopes that numbers carry
-  bool damping_is_flat = false;                ///< nor has D
+  bool damping_is_flat = false;                ///< no coefficient of D has
   std::vector<P> damping;                      ///< (k + 1) D for k = 0, 1, ..., of Pattern::bodies
 
   explicit EquationLanes(const Pattern& of, int orders_of_load = 0)
@@ -146,9 +146,17 @@ struct EquationLanes {
   HWY_ATTR void find_load(const ClockLanes<P>& clock, int terms);
   template <class V, class W>
   HWY_ATTR inline void accelerate(int k, const P* now, const P* rate, P* to) const;
-  template <int Rows, class V, class W>
-  HWY_ATTR inline void couple(const Pattern::CoupledRows& rows, const PlainOf<P>& whole,
-                              const P* now, const P* rate, P* to) const;
+  template <class V, class W, size_t Vectors>
+  HWY_ATTR inline void couple(int k, const std::array<const P*, Vectors>& now,
+                              const std::array<const P*, Vectors>& rates,
+                              const std::array<P*, Vectors>& to) const;
+
+ private:
+  template <size_t Rows, class V, class W, size_t Vectors>
+  HWY_ATTR inline void couple_rows(const Pattern::CoupledRows& rows, int k,
+                                   const std::array<const P*, Vectors>& now,
+                                   const std::array<const P*, Vectors>& rates,
+                                   const std::array<P*, Vectors>& to) const;
 };
 
 /// Finds what has no slopes.
@@ -236,27 +244,45 @@ HWY_ATTR inline void EquationLanes<P>::accelerate(int k, const P* now, const P* 
   for (int i = 0; i < pattern.n; ++i) {
     to[i] = fnma(whole * as<W>(dd[i]), rate[i], fnma(as<V>(kd[i]), now[i], load[i]));
   }
+  couple<V, W>(k, std::array{now}, std::array{rate}, std::array{to});
+}
+
+/// What coefficients beside the diagonals do to coefficient k of the acceleration.
+///
+/// @param now, rates  coefficients k and k + 1 of the coordinates, of one motion or several columns
+/// @param to          accelerations of the same
+template <class P>
+template <class V, class W, size_t Vectors>
+HWY_ATTR inline void EquationLanes<P>::couple(int k, const std::array<const P*, Vectors>& now,
+                                              const std::array<const P*, Vectors>& rates,
+                                              const std::array<P*, Vectors>& to) const {
   for (const Pattern::CoupledRows& rows : pattern.coupled) {
     rows.rows.size() == 1
-        ? couple<1, V, W>(rows, whole, now, rate, to)
-        : couple<Pattern::CoupledRows::side_by_side, V, W>(rows, whole, now, rate, to);
+        ? couple_rows<1, V, W>(rows, k, now, rates, to)
+        : couple_rows<Pattern::CoupledRows::side_by_side, V, W>(rows, k, now, rates, to);
   }
 }
 
-/// What coefficients beside the diagonals do to the acceleration of rows.
+/// The same of some rows, whose number the compiler knows.
 template <class P>
-template <int Rows, class V, class W>
-HWY_ATTR inline void EquationLanes<P>::couple(const Pattern::CoupledRows& rows,
-                                              const PlainOf<P>& whole, const P* now, const P* rate,
-                                              P* to) const {
-  P of_x[1][Rows], of_rate[1][Rows];
-  for (int r = 0; r < Rows; ++r) of_x[0][r] = of_rate[0][r] = P(0.0);
+template <size_t Rows, class V, class W, size_t Vectors>
+HWY_ATTR inline void EquationLanes<P>::couple_rows(const Pattern::CoupledRows& rows, int k,
+                                                   const std::array<const P*, Vectors>& now,
+                                                   const std::array<const P*, Vectors>& rates,
+                                                   const std::array<P*, Vectors>& to) const {
+  const PlainOf<P> whole(k + 1.0);
+  P of_x[Vectors][Rows], of_rate[Vectors][Rows];
+  for (size_t v = 0; v < Vectors; ++v) {
+    for (size_t r = 0; r < Rows; ++r) of_x[v][r] = of_rate[v][r] = P(0.0);
+  }
   const P* entry = A.data() + rows.begin;
-  entry = add_products<V>(entry, rows.of_x, std::array{now}, of_x);
-  add_products<W>(entry, rows.of_rate, std::array{rate}, of_rate);
-  for (int r = 0; r < Rows; ++r) {
-    P& sum = to[rows.rows[static_cast<size_t>(r)]];
-    sum = sum - fma(whole, of_rate[0][r], of_x[0][r]);
+  entry = add_products<V>(entry, rows.of_x, now, of_x);
+  add_products<W>(entry, rows.of_rate, rates, of_rate);
+  for (size_t v = 0; v < Vectors; ++v) {
+    for (size_t r = 0; r < Rows; ++r) {
+      P& sum = to[v][rows.rows[r]];
+      sum = sum - fma(whole, of_rate[v][r], of_x[v][r]);
+    }
   }
 }
 

@@ -55,7 +55,7 @@ class EventFinder {
   HWY_ATTR void note(size_t i, uint64_t EventMask::*kind, const Mask& fell);
 
   MotionLanes<P>& m_;
-  const int& N;  // of the motion, which may change between steps
+  const int& N;  // order of the series, which may change between steps
   std::vector<EventMask> masks_;
 };
 

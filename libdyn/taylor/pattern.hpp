@@ -49,10 +49,10 @@ struct Pattern {
   };
 
   int n = 0;
-  std::vector<int> forced;      ///< coordinates with a load that changes
-  std::size_t other_loads = 0;  ///< loads of other frequencies, the most of any system
-  std::vector<CoupledRows> coupled;
-  int off_diagonals = 0;  ///< coefficients in all of them
+  std::vector<int> forced;           ///< coordinates with a load that changes
+  std::size_t other_loads = 0;       ///< loads of other frequencies, the most of any system
+  std::vector<CoupledRows> coupled;  ///< all rows that have such coefficients
+  int off_diagonals = 0;             ///< coefficients in `coupled`
   std::vector<ContactRows> contacts;
   std::vector<FilmRows> films;
 

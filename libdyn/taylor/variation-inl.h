@@ -52,10 +52,6 @@ class Variation {
   __attribute__((flatten)) HWY_ATTR void move_columns(P* columns, bool any_sticks, const P& h);
   template <int Bodies>
   HWY_ATTR inline void accelerate_columns(int k, const P* forces, P* to_a, P* to_b);
-  template <int Rows>
-  HWY_ATTR inline void couple(const Pattern::CoupledRows& rows, const P& whole,
-                              const std::array<const P*, 2>& now,
-                              const std::array<const P*, 2>& rates, const std::array<P*, 2>& to);
   // variation_films-inl.h
   HWY_ATTR void find_film_slopes(const P& h, P& square, P& longest);
   HWY_ATTR P film_divergence(const P& h);
@@ -182,34 +178,8 @@ HWY_ATTR inline void Variation<P>::accelerate_columns(int k, const P* forces, P*
     }
   }
   if (Bodies > 0) return;
-  const std::array now{a, b}, rates{rate_a, rate_b};
-  for (const Pattern::CoupledRows& rows : m_.pattern.coupled) {
-    rows.rows.size() == 1
-        ? couple<1>(rows, whole, now, rates, {to_a, to_b})
-        : couple<Pattern::CoupledRows::side_by_side>(rows, whole, now, rates, {to_a, to_b});
-  }
-}
-
-/// What coefficients beside the diagonals do to the acceleration of rows of both columns.
-template <class P>
-template <int Rows>
-HWY_ATTR inline void Variation<P>::couple(const Pattern::CoupledRows& rows, const P& whole,
-                                          const std::array<const P*, 2>& now,
-                                          const std::array<const P*, 2>& rates,
-                                          const std::array<P*, 2>& to) {
-  P of_x[2][Rows], of_rate[2][Rows];
-  for (int r = 0; r < Rows; ++r) {
-    for (int column = 0; column < 2; ++column) of_x[column][r] = of_rate[column][r] = P(0.0);
-  }
-  const P* entry = m_.equations.A.data() + rows.begin;
-  entry = add_products<P>(entry, rows.of_x, now, of_x);
-  add_products<P>(entry, rows.of_rate, rates, of_rate);
-  for (size_t column = 0; column < 2; ++column) {
-    for (int r = 0; r < Rows; ++r) {
-      P& sum = to[column][rows.rows[static_cast<size_t>(r)]];
-      sum = sum - fma(whole, of_rate[column][r], of_x[column][r]);
-    }
-  }
+  m_.equations.template couple<P, P>(k, std::array{a, b}, std::array{rate_a, rate_b},
+                                     std::array{to_a, to_b});
 }
 
 /// Moves all columns over the step h of the motion.

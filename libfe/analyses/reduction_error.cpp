@@ -9,7 +9,8 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr int band_samples = 25;  ///< frequencies at which receptances are compared
-constexpr int fewest_modes = 4, enough_modes = 120;  ///< of which some should be beyond the band
+constexpr int fewest_modes = 4,
+              enough_modes = 120;  ///< that are looked for, to get beyond the band
 
 }  // namespace
 
@@ -54,12 +55,13 @@ ReductionError WholeSystem::error_of(const ReducedSystem& reduced) const {
     }
     error.pairs.push_back(pair);
   }
+  if (receptances_.empty()) return error;
+  // at an antiresonance the static receptance is the measure, not the vanishing one
+  const double static_size = receptances_.front().matrix.norm();
   const CMat rows = reduced.Phi.transpose().cast<Complex>() * ports_;
   for (const auto& [w, exact] : receptances_) {
     const CMat Z = (K - w * w * reduced.M).cast<Complex>() + Complex(0.0, w) * D.cast<Complex>();
     const CMat approximate = rows.transpose() * DenseLu<CMat>(Z).solve(rows);
-    // at an antiresonance the static receptance is the measure, not the vanishing one
-    const double static_size = receptances_.front().matrix.norm();
     error.receptance =
         std::max(error.receptance, (approximate - exact).norm() / (exact.norm() + static_size));
   }

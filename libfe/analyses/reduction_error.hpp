@@ -9,7 +9,7 @@
 
 namespace whirl::inline fe {
 
-/// How far a reduced system is from the full one.
+/// Errors of a reduced system beside the whole one.
 struct ReductionError {
   /// An eigenvalue of the full system in the band and the nearest one of the reduced one [rad/s].
   struct Pair {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <utility>
 
@@ -46,18 +47,19 @@ bool same_ports(const Model& a, const Model& b) {
 }  // namespace
 
 struct ModelFamily::State {
-  Model base;
+  std::shared_ptr<const Model> base;
   std::vector<ParameterAxis> axes;
   ConfigNode root;
   NamedFiles files;            ///< none: the model has its tables in it
   std::vector<bool> of_rotor;  ///< per axis, whether its value is in one of the rotor's tables
-  bool same_modes = false;     ///< nor a film, about whose equilibrium modes are
+  /// No value is in a table of the rotor, or of a film, about whose equilibrium modes are.
+  bool same_modes = true;
 
   struct Known {
     std::vector<double> values;
     std::shared_ptr<const Scene> scene;
   };
-  /// A model whose rotor was read from these values.
+  /// A model whose rotor was read from these values of the axes that are `of_rotor`.
   struct ReadRotor {
     std::vector<double> values;
     std::shared_ptr<const Model> model;
@@ -76,11 +78,10 @@ struct ModelFamily::State {
 
 ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
     : state_(std::make_unique<State>()) {
-  state_->base = base;
+  state_->base = std::make_shared<const Model>(base);
   state_->axes = std::move(axes);
   state_->root = parse_toml(base.source, base.path);
   state_->files = NamedFiles::none_in(std::filesystem::path(base.path).parent_path());
-  state_->same_modes = true;
   for (const ParameterAxis& axis : state_->axes) {
     bool is_of_rotor = false;
     for (const std::string& path : axis.paths()) {
@@ -91,9 +92,8 @@ ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
     }
     state_->of_rotor.push_back(is_of_rotor);
   }
-  if (std::ranges::find(state_->of_rotor, true) == state_->of_rotor.end()) {
-    state_->rotor.model = std::make_shared<const Model>(base);
-  }
+  const bool has_one_rotor = std::ranges::none_of(state_->of_rotor, std::identity());
+  if (has_one_rotor) state_->rotor.model = state_->base;
 }
 
 ModelFamily::~ModelFamily() = default;
@@ -102,12 +102,10 @@ ModelFamily& ModelFamily::operator=(ModelFamily&&) noexcept = default;
 
 Model ModelFamily::model(std::span<const double> values) const {
   ConfigNode root = state_->root;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    for (const std::string& set : state_->axes[i].assignments_of(values[i])) set_value(root, set);
-  }
   std::vector<double> of_rotor;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (state_->of_rotor[i]) of_rotor.push_back(values[i]);
+    for (const std::string& set : state_->axes[i].assignments_of(values[i])) set_value(root, set);
   }
   std::shared_ptr<const Model> on;
   {
@@ -124,8 +122,8 @@ Model ModelFamily::model(std::span<const double> values) const {
       state_->rotor = {std::move(of_rotor), std::move(read)};
     }
   }
-  member.source = state_->base.source;
-  member.path = state_->base.path;
+  member.source = state_->base->source;
+  member.path = state_->base->path;
   return member;
 }
 
@@ -135,7 +133,7 @@ std::shared_ptr<const Scene> ModelFamily::scene(const Model& member) const {
         make_scene(std::move(assembler), member, ReductionEstimate::no));
   };
   const bool is_comparable =
-      member.reduction == state_->base.reduction && same_ports(member, state_->base);
+      member.reduction == state_->base->reduction && same_ports(member, *state_->base);
   if (!is_comparable) return made_on(Assembler(member.structure));
   std::shared_ptr<const Scene> on;
   {

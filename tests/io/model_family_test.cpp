@@ -37,6 +37,14 @@ std::vector<double> numbers_of(const Scene& scene, double size = 1e-2) {
   return numbers;
 }
 
+/// The whole model with a value of each of two axes.
+Model whole_model(const Model& base, const ParameterAxis& first, double a,
+                  const ParameterAxis& second, double b) {
+  std::vector<std::string> sets = first.assignments_of(a);
+  for (const std::string& set : second.assignments_of(b)) sets.push_back(set);
+  return parse_model(base.source, base.path, sets);
+}
+
 /// Members of a family over some values beside the whole models: scenes and starts. Returns the
 /// numbers of every scene.
 std::vector<std::vector<double>> members_beside_whole_models(const Model& base,
@@ -191,10 +199,8 @@ TEST(ModelFamily, SeveralParametersGoTogether) {
   const ModelFamily family(base, {speed, friction});
   for (const double rate : {300.0, 400.0}) {
     for (const double mu : {0.0, 0.1}) {
-      std::vector<std::string> sets = speed.assignments_of(rate);
-      for (const std::string& set : friction.assignments_of(mu)) sets.push_back(set);
       const Scene expected =
-          make_scene(parse_model(base.source, base.path, sets), ReductionEstimate::no);
+          make_scene(whole_model(base, speed, rate, friction, mu), ReductionEstimate::no);
       EXPECT_EQ(numbers_of(*family.scene(std::vector{rate, mu})), numbers_of(expected));
     }
   }
@@ -209,9 +215,7 @@ TEST(ModelFamily, ValuesOfTheRotorGoTogetherWithThoseOfContacts) {
   const ModelFamily family(base, {stiffness, friction});
   for (const auto& [k, mu] : {std::pair{6e6, 0.0}, std::pair{6e6, 0.1}, std::pair{9e6, 0.1},
                               std::pair{6e6, 0.2}, std::pair{9e6, 0.2}}) {
-    std::vector<std::string> sets = stiffness.assignments_of(k);
-    for (const std::string& set : friction.assignments_of(mu)) sets.push_back(set);
-    const Model whole = parse_model(base.source, base.path, sets);
+    const Model whole = whole_model(base, stiffness, k, friction, mu);
     const Model member = family.model(std::vector{k, mu});
     EXPECT_EQ(member.contacts[0].friction.mu, mu);
     EXPECT_EQ(member.source, base.source);
