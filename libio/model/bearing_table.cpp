@@ -4,103 +4,119 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
-#include "libio/model/table_columns.hpp"
+#include "libio/model/delimited_table.hpp"
 #include "libio/text/delimited.hpp"
-#include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
-using Kind = CoefficientColumn::Kind;
+/// An entry of a matrix and its column.
+struct Entry {
+  std::string column;
+  Mat2 BearingCoefficients::*matrix;
+  int row, col;
+  const char* unit;
+};
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = [] {
+    std::vector<Entry> made;
+    const std::tuple<const char*, const char*, Mat2 BearingCoefficients::*> groups[] = {
+        {"k", "N/m", &BearingCoefficients::K},
+        {"c", "N.s/m", &BearingCoefficients::C},
+        {"m", "kg", &BearingCoefficients::M},
+        {"kt", "N.m/rad", &BearingCoefficients::Kt},
+        {"ct", "N.m.s/rad", &BearingCoefficients::Ct}};
+    for (const auto& [prefix, unit, matrix] : groups) {
+      for (const int i : {0, 1}) {
+        for (const int j : {0, 1}) {
+          made.push_back({std::string(prefix) + "xy"[i] + "xy"[j], matrix, i, j, unit});
+        }
+      }
+    }
+    return made;
+  }();
+  return all;
+}
+
+const std::vector<ColumnKind>& coefficient_columns() {
+  static const std::vector<ColumnKind> columns = [] {
+    std::vector<ColumnKind> made;
+    for (const char* place : {"speed", "whirl"}) {
+      made.push_back({.name = place,
+                      .unit = "rad/s",
+                      .range = Range::nonnegative,
+                      .must_be_filled = true,
+                      .others_need_unit = true});
+    }
+    for (const Entry& entry : entries()) {
+      made.push_back({.name = entry.column, .unit = entry.unit, .must_be_filled = true});
+    }
+    return made;
+  }();
+  return columns;
+}
 
 /// A table while its lines are read.
 struct OpenTable {
   CoefficientTable table{};
   std::vector<Where> places{};  ///< where its rows stand: the cell of the speed, or whirl frequency
-  NumberMarks marks{};
-  std::vector<CoefficientColumn> columns{};
-
-  bool has(Kind kind) const {
-    return std::any_of(columns.begin(), columns.end(),
-                       [&](const CoefficientColumn& c) { return c.kind == kind; });
-  }
 };
 
-std::optional<double> value_of(const Cell& cell, const CoefficientColumn& column,
-                               const NumberMarks& marks, const ReportProblem& report) {
-  const auto number = plain_number(cell.text, marks);
-  if (!number) {
-    report(cell.place, column.name, number.problem);
-    return std::nullopt;
+/// Adds a row whose speed and whirl frequency are known.
+void add_row(OpenTable& open, const DelimitedTable& from, const DelimitedRow& row,
+             const std::string& file) {
+  const bool has_speed = from.has("speed"), has_whirl = from.has("whirl");
+  const auto speed = row.number("speed"), whirl = row.number("whirl");
+  if ((has_speed && !speed) || (has_whirl && !whirl)) return;
+  if (has_speed) open.table.speed.push_back(*speed);
+  if (has_whirl) open.table.whirl.push_back(*whirl);
+  BearingCoefficients& to = open.table.rows.emplace_back();
+  for (const Entry& entry : entries()) {
+    (to.*entry.matrix)(entry.row, entry.col) = row.number(entry.column).value_or(0.0);
   }
-  const auto value =
-      parse_as(*number + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
-  if (!value) report(cell.place, column.name, value.problem);
-  return value.value;
+  open.places.push_back({file, row.line, row.place(has_speed ? "speed" : "whirl")});
 }
 
-/// Adds the row of a line.
-void add_row(OpenTable& open, const std::vector<Cell>& cells, Where where,
-             const ReportProblem& report) {
-  BearingCoefficients row;
-  double speed = 0.0, whirl = 0.0;
-  bool has_place = true;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const CoefficientColumn& column = open.columns[i];
-    if (column.is_remark) continue;
-    const auto value = value_of(cells[i], column, open.marks, report);
-    if (!value) {
-      has_place = has_place && column.kind == Kind::entry;
-      continue;
-    }
-    if (column.kind == Kind::speed) {
-      speed = *value;
-      where.column = cells[i].place;
-      if (speed < 0.0) report(cells[i].place, "speed", "a speed is zero or more");
-    } else if (column.kind == Kind::whirl) {
-      whirl = *value;
-      if (!open.has(Kind::speed)) where.column = cells[i].place;
-      if (whirl < 0.0) {
-        report(cells[i].place, "whirl", "a whirl frequency is zero or more, for either sense");
-      }
-    } else {
-      (row.*column.matrix)(column.row, column.column) = *value;
-    }
+/// Puts rows in another order.
+void reorder(OpenTable& open, const std::vector<std::size_t>& order) {
+  OpenTable sorted;
+  for (const std::size_t i : order) {
+    if (!open.table.speed.empty()) sorted.table.speed.push_back(open.table.speed[i]);
+    if (!open.table.whirl.empty()) sorted.table.whirl.push_back(open.table.whirl[i]);
+    sorted.table.rows.push_back(open.table.rows[i]);
+    sorted.places.push_back(open.places[i]);
   }
-  if (!has_place) return;
-  if (open.has(Kind::speed)) open.table.speed.push_back(speed);
-  if (open.has(Kind::whirl)) open.table.whirl.push_back(whirl);
-  open.table.rows.push_back(row);
-  open.places.push_back(where);
+  open = std::move(sorted);
 }
 
-/// Rows of a table over both in the order of speeds, at one speed in that of frequencies.
+/// Rows of a table over both in the order of speeds, at one speed in that of frequencies; rows over
+/// one of both that descend from line to line from the last to the first.
 void sort_rows(OpenTable& open) {
   const CoefficientTable& t = open.table;
   std::vector<std::size_t> order(t.rows.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(t.speed[a], t.whirl[a]) < std::pair(t.speed[b], t.whirl[b]);
-  });
-  CoefficientTable sorted;
-  std::vector<Where> places;
-  for (const std::size_t i : order) {
-    sorted.speed.push_back(t.speed[i]);
-    sorted.whirl.push_back(t.whirl[i]);
-    sorted.rows.push_back(t.rows[i]);
-    places.push_back(open.places[i]);
+  const bool has_both = !t.speed.empty() && !t.whirl.empty();
+  const std::vector<double>& one = t.speed.empty() ? t.whirl : t.speed;
+  if (has_both) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(t.speed[a], t.whirl[a]) < std::pair(t.speed[b], t.whirl[b]);
+    });
+  } else if (std::is_sorted(one.rbegin(), one.rend(), std::less_equal<>())) {
+    std::reverse(order.begin(), order.end());
   }
-  open.table = std::move(sorted);
-  open.places = std::move(places);
+  reorder(open, order);
 }
 
-/// Reports rows that do not ascend, of a table over one of both, or that are there twice.
-void check_order(OpenTable& open, std::vector<Problem>& problems) {
-  const bool has_both = open.has(Kind::speed) && open.has(Kind::whirl);
-  if (has_both) sort_rows(open);
+/// Reports rows that neither ascend nor descend, of a table over one of both, or that are there
+/// twice.
+void check_order(const OpenTable& open, std::vector<Problem>& problems) {
   const CoefficientTable& t = open.table;
+  const bool has_both = !t.speed.empty() && !t.whirl.empty();
   for (std::size_t i = 1; i < t.rows.size(); ++i) {
     const Where& where = open.places[i];
     if (has_both) {
@@ -116,60 +132,56 @@ void check_order(OpenTable& open, std::vector<Problem>& problems) {
   }
 }
 
-/// Lines below the names as cells, and what the marks in their numbers say.
-std::vector<TableRow> rows_of_numbers(OpenTable& open, const std::vector<TableLine>& lines) {
-  std::vector<TableRow> rows = table_rows(lines, open.marks.delimiter, open.columns.size());
-  for (const TableRow& row : rows) {
-    for (std::size_t i = 0; i < row.cells.size(); ++i) {
-      const bool is_number = i >= open.columns.size() || !open.columns[i].is_remark;
-      if (is_number) open.marks.add(row.cells[i].text);
-    }
+/// Reports what may be forgotten: one of kxx and kyy, of kxy and kyx, ...
+void doubt_columns(const DelimitedTable& table, const std::string& file,
+                   std::vector<Problem>& doubts) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const std::string& name = table.columns[i];
+    if (name.empty() || name == "speed" || name == "whirl") continue;
+    std::string other = name;
+    for (char& c : other) c = c == 'x' ? 'y' : c == 'y' ? 'x' : c;
+    if (table.has(other)) continue;
+    doubts.push_back(
+        {{file, table.header, table.places[i]},
+         other,
+         fmt::format("this table has no such column beside {}: it is taken as zero", name)});
   }
-  return rows;
 }
 
 }  // namespace
+
+std::size_t coefficients_named_in(const std::string& line) {
+  return columns_named_in(line, coefficient_columns());
+}
 
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
                                      std::vector<Problem>& problems, std::vector<Problem>* doubts) {
   OpenTable open;
   const std::size_t others = problems.size();  // of other tables
-  const auto report_to = [&](std::vector<Problem>& to, const TableLine& line) -> ReportProblem {
-    return [&to, &file, &line](int place, std::string key, std::string message) {
-      to.push_back({{file, line.number, place + line.skipped}, std::move(key), std::move(message)});
-    };
-  };
-  const std::vector<TableLine> lines = table_lines(text, coefficients_named_in);
-  if (!lines.empty()) {
-    const ReportProblem report = report_to(problems, lines[0]);
-    open.marks.delimiter = delimiter_of(lines[0].text);
-    open.columns = columns_named(lines[0].text, open.marks.delimiter, report);
-    if (problems.size() > others) return open.table;  // what is wrong here is so in every row
-    std::vector<TableRow> rows = rows_of_numbers(open, lines);
-    if (!rows.empty()) {
-      const bool has_units = is_line_of_units(rows[0].cells);
-      if (has_units) take_units(open.columns, rows[0].cells, report_to(problems, *rows[0].line));
-      check_columns(open.columns, report);
-      if (problems.size() > others) return open.table;
-      if (has_units) rows.erase(rows.begin());
-    }
-    for (const auto& [line, cells] : rows) {
-      const ReportProblem report_row = report_to(problems, *line);
-      if (cells.size() == open.columns.size()) {
-        add_row(open, cells, {file, line->number, 1}, report_row);
-      } else {
-        report_count(cells, open.columns.size(), open.marks.delimiter, report_row);
-      }
-    }
-    check_order(open, problems);
-    if (doubts) doubt_columns(open.columns, report_to(*doubts, lines[0]));
+  const DelimitedTable table = parse_delimited(text, file, coefficient_columns(), problems, doubts);
+  if (table.header > 0 && problems.size() == others && !table.has("speed") && !table.has("whirl")) {
+    problems.push_back(
+        {{file, table.header, 1},
+         "",
+         "a column of speeds or of whirl frequencies is missing: name it speed or whirl"});
   }
-  if (open.table.rows.empty() && problems.size() == others) {
+  if (table.header > 0 && problems.size() == others &&
+      std::none_of(entries().begin(), entries().end(),
+                   [&](const Entry& entry) { return table.has(entry.column); })) {
+    problems.push_back({{file, table.header, 1},
+                        "",
+                        "a column of coefficients is missing, such as kxx [N/m] or cxx [N.s/m]"});
+  }
+  if (table.rows.empty() && problems.size() == others) {
     problems.push_back({{file},
                         "",
                         "the table has no rows; expected a line of column names and one line per "
                         "speed or whirl frequency"});
   }
+  for (const DelimitedRow& row : table.rows) add_row(open, table, row, file);
+  sort_rows(open);
+  check_order(open, problems);
+  if (doubts) doubt_columns(table, file, *doubts);
   tell_once(problems, others);
   return open.table;
 }

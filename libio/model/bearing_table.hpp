@@ -10,19 +10,21 @@ namespace whirl::inline io {
 
 /// Reads bearing coefficients against speed, whirl frequency or both.
 ///
-/// The first line that is not a comment (#, !, %, //) names the columns in any order: `speed`,
-/// `whirl` or both, and any of kxx ... kyy, cxx ... cyy, mxx ... myy (added mass), and of tilts
-/// ktxx ... ktyy, ctxx ... ctyy; what is absent is zero. Names of other programs are known, too
-/// (see columns_named). Units stand in brackets behind names, in a line below them, or with the
-/// values; without any, SI. Commas, semicolons, tabs or blanks delimit; where commas do not,
-/// decimals may have them. Speeds must ascend, or whirl frequencies where there are no speeds; rows
-/// over both may come in any order. See table_lines for names in a comment.
+/// Columns in any order: `speed`, `whirl` or both, and any of kxx ... kyy, cxx ... cyy, mxx ... myy
+/// (added mass), and of tilts ktxx ... ktyy, ctxx ... ctyy; what is absent is zero. Names of other
+/// programs are known, too (column_names.hpp), and need a unit for speeds. See parse_delimited for
+/// the form of the lines. Speeds ascend or descend, or whirl frequencies where there are no speeds;
+/// rows over both may come in any order.
 ///
 /// @param file      for messages
 /// @param problems  receives what is wrong, with its place; a problem of many rows only once
-/// @param doubts    receives what is right and seldom meant, as a missing kyy; null: not wanted
+/// @param doubts    receives what is right and seldom meant, as a missing kyy, and columns that are
+///                  not read; null: not wanted
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
                                      std::vector<Problem>& problems,
                                      std::vector<Problem>* doubts = nullptr);
+
+/// How many columns of such a table a line names.
+std::size_t coefficients_named_in(const std::string& line);
 
 }  // namespace whirl::inline io

@@ -10,22 +10,22 @@ namespace whirl::inline io {
 namespace {
 
 const std::vector<ColumnKind>& bow_columns() {
-  using enum Range;
-  static const std::vector<ColumnKind> columns{{"position", "m", any, false, {"z", "at"}},
-                                               {"x", "m"},
-                                               {"y", "m"},
-                                               {"deflection", "m", any, false, {"bow"}},
-                                               {"angle", "rad", any, false, {"phase"}}};
+  static const std::vector<ColumnKind> columns{
+      {"position", "m"}, {"x", "m"}, {"y", "m"}, {"deflection", "m"}, {"angle", "rad"}};
   return columns;
 }
 
 }  // namespace
 
+std::size_t bow_columns_named_in(const std::string& line) {
+  return columns_named_in(line, bow_columns());
+}
+
 Bow parse_bow_table(const std::string& text, const std::string& file,
-                    std::vector<Problem>& problems) {
+                    std::vector<Problem>& problems, std::vector<Problem>* doubts) {
   Bow bow;
   const std::size_t before = problems.size();
-  const DelimitedTable table = parse_delimited(text, file, bow_columns(), problems);
+  const DelimitedTable table = parse_delimited(text, file, bow_columns(), problems, doubts);
   const auto report = [&](int line, int place, std::string key, std::string message) {
     problems.push_back({{file, line, line > 0 ? place : 0}, std::move(key), std::move(message)});
   };

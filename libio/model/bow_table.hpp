@@ -17,7 +17,11 @@ namespace whirl::inline io {
 ///
 /// @param file      for messages
 /// @param problems  receives what is wrong, with file and line
+/// @param doubts    receives columns that are not read; null: not wanted
 Bow parse_bow_table(const std::string& text, const std::string& file,
-                    std::vector<Problem>& problems);
+                    std::vector<Problem>& problems, std::vector<Problem>* doubts = nullptr);
+
+/// How many columns of such a table a line names.
+std::size_t bow_columns_named_in(const std::string& line);
 
 }  // namespace whirl::inline io

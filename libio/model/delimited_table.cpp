@@ -1,21 +1,24 @@
 #include "libio/model/delimited_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
+#include <utility>
 
+#include "libio/model/named_columns.hpp"
 #include "libio/text/delimited.hpp"
-#include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
-#include "libio/text/vendor_units.hpp"
 
 namespace whirl::inline io {
 
 std::optional<double> DelimitedRow::number(std::string_view column) const {
   const auto found = numbers.find(column);
   return found == numbers.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string DelimitedRow::text(std::string_view column) const {
+  const auto found = texts.find(column);
+  return found == texts.end() ? "" : found->second;
 }
 
 int DelimitedRow::place(std::string_view column) const {
@@ -29,144 +32,17 @@ bool DelimitedTable::has(std::string_view column) const {
 
 namespace {
 
-/// A column that is there: what it is, and the unit of its cells.
-struct NamedColumn {
-  const ColumnKind* kind = nullptr;  ///< null: not known
-  std::string unit;
-};
-
-/// The delimiter that the line of names has; names have blanks in them, which delimit nothing.
-Delimiter delimiter_in(std::string_view names) {
-  const Delimiter found = delimiter_of(names);
-  return found == Delimiter::blanks ? Delimiter::comma : found;
-}
-
-/// What nobody reads.
-const ColumnKind remarks{.name = "", .is_text = true};
-
-const ColumnKind* kind_named(const std::string& name, const std::vector<ColumnKind>& kinds) {
-  const std::string plain = plain_name(name);
-  for (const ColumnKind& kind : kinds) {
-    const auto& others = kind.synonyms;
-    const bool is_it = plain_name(kind.name) == plain;
-    if (is_it || std::find(others.begin(), others.end(), plain) != others.end()) return &kind;
-  }
-  return nullptr;
-}
-
-/// Name and unit of a cell of the line of names.
-NameAndUnit said_in(const std::string& cell, const std::vector<ColumnKind>& kinds) {
-  return name_and_unit(cell, [&](const std::string& name, const std::string& unit) {
-    const ColumnKind* kind = kind_named(name, kinds);
-    if (!kind || unit.empty()) return kind != nullptr;
-    return !kind->is_text && unit_in_table(unit, kind->unit);
-  });
-}
-
-/// How many columns a line names.
-std::size_t known_names_in(const std::string& line, const std::vector<ColumnKind>& kinds) {
-  std::size_t known = 0;
-  for (const Cell& cell : cells_of(line, delimiter_in(line))) {
-    if (kind_named(said_in(cell.text, kinds).name, kinds)) ++known;
-  }
-  return known;
-}
-
-void report_unknown(const std::string& name, int place, const std::vector<ColumnKind>& kinds,
-                    const ReportProblem& report) {
-  std::vector<std::string> names;
-  for (const ColumnKind& kind : kinds) {
-    if (kind.problem.empty()) names.push_back(kind.name);
-  }
-  std::string written = name;
-  for (char& c : written) {
-    c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  const auto near = nearest(written, names);
-  report(place, name,
-         near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
-              : fmt::format("unknown column, known are {}", fmt::join(names, ", ")));
-}
-
-/// Gives a column the unit that a cell says; whether it fits.
-bool take_unit(NamedColumn& column, const std::string& unit, int place,
-               const ReportProblem& report) {
-  if (unit.empty() || unit == "-") return true;
-  const ColumnKind& kind = *column.kind;
-  if (kind.is_text) {
-    report(place, kind.name,
-           kind.unit_problem.empty() ? "a column of words has no unit" : kind.unit_problem);
-    return false;
-  }
-  const auto meant = unit_in_table(unit, kind.unit);
-  if (!meant) {
-    report(place, kind.name, fmt::format("the unit [{}] does not fit: {}", unit, meant.problem));
-    return false;
-  }
-  column.unit = *meant;
-  return true;
-}
-
-/// The column of a cell of the line of names.
-NamedColumn column_named(const Cell& cell, const std::vector<ColumnKind>& kinds,
-                         const ReportProblem& report) {
-  const NameAndUnit said = said_in(cell.text, kinds);
-  NamedColumn column{kind_named(said.name, kinds), ""};
-  if (!column.kind && names_remarks(said.name)) return {&remarks, ""};
-  if (!column.kind) {
-    report_unknown(said.name, cell.place, kinds, report);
-  } else if (!column.kind->problem.empty()) {
-    report(cell.place, said.name, column.kind->problem);
-  } else if (said.has_unit) {
-    take_unit(column, said.unit, cell.place, report);
-  }
-  return column;
-}
-
-std::vector<NamedColumn> columns_of(std::vector<Cell> cells, const std::vector<ColumnKind>& kinds,
-                                    const ReportProblem& report) {
-  while (cells.size() > 1 && cells.back().text.empty()) cells.pop_back();
-  if (begins_as_number(cells.front().text)) {
-    std::vector<std::string> names;
-    for (const ColumnKind& kind : kinds) {
-      if (kind.problem.empty()) names.push_back(kind.name);
-    }
-    report(cells.front().place, "",
-           fmt::format("found numbers, expected a line with the names of the columns first: {}",
-                       fmt::join(names, ", ")));
-    return {};
-  }
-  std::vector<NamedColumn> columns;
-  for (const Cell& cell : cells) {
-    const NamedColumn column = column_named(cell, kinds, report);
-    const bool is_double = column.kind && column.kind != &remarks &&
-                           std::any_of(columns.begin(), columns.end(),
-                                       [&](const NamedColumn& c) { return c.kind == column.kind; });
-    if (is_double) report(cell.place, column.kind->name, "this column is there already");
-    columns.push_back(column);
-  }
-  return columns;
-}
-
-/// Takes the units of a line that has nothing else; whether it is one.
-bool take_units(std::vector<NamedColumn>& columns, const std::vector<Cell>& cells) {
-  if (cells.size() > columns.size() || !is_line_of_units(cells)) return false;
-  const ReportProblem nobody = [](int, const std::string&, const std::string&) {};
-  std::vector<NamedColumn> with_units = columns;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    std::string unit = cells[i].text;
-    const bool is_bracketed = !unit.empty() && (unit.front() == '[' || unit.front() == '(');
-    if (is_bracketed) unit = trimmed(std::string_view(unit).substr(1, unit.find_last_of("])") - 1));
-    if (!take_unit(with_units[i], unit, cells[i].place, nobody)) return false;
-  }
-  columns = std::move(with_units);
-  return true;
-}
-
-/// Reads a cell with something in it.
+/// Reads a cell of a column that is known.
 void read_cell(const NamedColumn& column, const Cell& cell, const NumberMarks& marks,
                DelimitedRow& row, const ReportProblem& report) {
   const ColumnKind& kind = *column.kind;
+  if (cell.text.empty()) {
+    if (kind.must_be_filled) {
+      report(cell.place, kind.name,
+             fmt::format("missing, expected {}", expected_quantity(kind.unit)));
+    }
+    return;
+  }
   if (kind.is_text) {
     row.texts[kind.name] = cell.text;
     return;
@@ -196,7 +72,7 @@ NumberMarks marks_in(const std::vector<TableRow>& rows, const std::vector<NamedC
   NumberMarks marks{delimiter};
   for (const TableRow& row : rows) {
     for (std::size_t i = 0; i < std::min(columns.size(), row.cells.size()); ++i) {
-      if (!columns[i].kind->is_text) marks.add(row.cells[i].text);
+      if (columns[i].kind && !columns[i].kind->is_text) marks.add(row.cells[i].text);
     }
   }
   return marks;
@@ -205,31 +81,45 @@ NumberMarks marks_in(const std::vector<TableRow>& rows, const std::vector<NamedC
 }  // namespace
 
 DelimitedTable parse_delimited(const std::string& text, const std::string& file,
-                               const std::vector<ColumnKind>& kinds,
-                               std::vector<Problem>& problems) {
+                               const std::vector<ColumnKind>& kinds, std::vector<Problem>& problems,
+                               std::vector<Problem>* doubts) {
   DelimitedTable table;
   const std::size_t before = problems.size();
-  const auto report_in = [&](const TableLine& line) -> ReportProblem {
-    return [&problems, &file, number = line.number, skipped = line.skipped](
-               int place, std::string key, std::string message) {
-      problems.push_back({{file, number, place + skipped}, std::move(key), std::move(message)});
+  const auto report_to = [&file](std::vector<Problem>& to, const TableLine& line) -> ReportProblem {
+    return [&to, &file, number = line.number, skipped = line.skipped](int place, std::string key,
+                                                                      std::string message) {
+      to.push_back({{file, number, place + skipped}, std::move(key), std::move(message)});
     };
   };
   const std::vector<TableLine> lines =
-      table_lines(text, [&](const std::string& line) { return known_names_in(line, kinds); });
+      table_lines(text, [&](const std::string& line) { return columns_named_in(line, kinds); });
   if (lines.empty()) return table;
-  const Delimiter delimiter = delimiter_in(lines[0].text);
+  const ReportProblem report_names = report_to(problems, lines[0]);
+  const Delimiter delimiter = delimiter_of_names(lines[0].text, kinds);
   table.header = lines[0].number;
   std::vector<NamedColumn> columns =
-      columns_of(cells_of(lines[0].text, delimiter), kinds, report_in(lines[0]));
-  for (const NamedColumn& c : columns) table.columns.push_back(c.kind ? c.kind->name : "");
-  if (problems.size() > before) return table;
+      named_columns(lines[0].text, delimiter, kinds, report_names,
+                    doubts ? report_to(*doubts, lines[0]) : ReportProblem());
+  for (const NamedColumn& c : columns) {
+    table.columns.push_back(c.kind ? c.kind->name : "");
+    table.places.push_back(c.place + lines[0].skipped);
+  }
+  if (problems.size() > before) return table;  // what is wrong here is so in every row
 
   std::vector<TableRow> rows = table_rows(lines, delimiter, columns.size());
-  if (!rows.empty() && take_units(columns, rows.front().cells)) rows.erase(rows.begin());
+  const bool has_units = !rows.empty() && take_units(columns, rows.front().cells,
+                                                     report_to(problems, *rows.front().line));
+  if (has_units) rows.erase(rows.begin());
+  for (const NamedColumn& c : columns) {
+    if (!c.needs_unit) continue;
+    report_names(c.place, c.kind->name,
+                 "its unit is missing; write it behind the name, such as [rpm] or [Hz], or in a "
+                 "line of units below");
+  }
+  if (problems.size() > before) return table;
   const NumberMarks marks = marks_in(rows, columns, delimiter);
   for (const auto& [line, cells] : rows) {
-    const ReportProblem report = report_in({line->number});
+    const ReportProblem report = report_to(problems, *line);
     if (cells.size() != columns.size()) {
       report_count(cells, columns.size(), delimiter, report);
       continue;
@@ -237,8 +127,9 @@ DelimitedTable parse_delimited(const std::string& text, const std::string& file,
     DelimitedRow& row = table.rows.emplace_back();
     row.line = line->number;
     for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!columns[i].kind) continue;
       row.places[columns[i].kind->name] = cells[i].place;
-      if (!cells[i].text.empty()) read_cell(columns[i], cells[i], marks, row, report);
+      read_cell(columns[i], cells[i], marks, row, report);
     }
   }
   tell_once(problems, before);

@@ -8,6 +8,7 @@
 
 #include "libio/model/model_checks.hpp"
 #include "libio/model/model_table.hpp"
+#include "libio/text/workbook.hpp"
 
 namespace whirl::inline io {
 
@@ -52,6 +53,7 @@ void throw_problems(ModelReading& reading) {
         return a.where == b.where && a.key == b.key && a.message == b.message;
       });
   reading.problems.erase(last, reading.problems.end());
+  for (Problem& problem : reading.problems) problem.where = with_cell_name(problem.where);
   throw ModelError(reading.problems);
 }
 
@@ -64,6 +66,8 @@ Model ModelBuilder::build() {
   read_top(reading_);
   for_each_in_turn([&](const ModelTable& table) { table.read(reading_); });
   check_places(reading_);
+  const std::vector<Problem> absent = doubts_of(reading_.named_places);
+  reading_.doubts.insert(reading_.doubts.end(), absent.begin(), absent.end());
   throw_problems(reading_);
   return std::move(reading_.model);
 }

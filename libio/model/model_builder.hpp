@@ -16,8 +16,8 @@ class ModelBuilder {
   /// @throws ModelError  with every problem found
   Model build();
   /// The model again, without reading the rotor again: since `base` only tables that are not of the
-  /// rotor may have been changed in the tree, no contact or oil film may have moved, and no film may
-  /// have another spring.
+  /// rotor may have been changed in the tree, no contact or oil film may have moved, and no film
+  /// may have another spring.
   ///
   /// @throws ModelError  likewise
   Model rebuild(const Model& base);

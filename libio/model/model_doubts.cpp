@@ -20,6 +20,7 @@
 #include "libio/text/delimited.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/units.hpp"
+#include "libio/text/workbook.hpp"
 
 namespace whirl::inline io {
 
@@ -289,6 +290,7 @@ std::vector<Problem> model_doubts(const std::string& text, const std::string& na
   }
   doubt_bare_numbers(root, asked, doubts);
   doubt_speed(root, model, doubts);
+  for (Problem& doubt : doubts) doubt.where = with_cell_name(doubt.where);
   return doubts;
 }
 

@@ -5,13 +5,14 @@
 #include "libio/text/encoding.hpp"
 #include "libio/text/file_bytes.hpp"
 #include "libio/text/nearest.hpp"
+#include "libio/text/workbook.hpp"
 
 namespace whirl::inline io {
 
 /// Results keep the text, so that they can be run again: it may stand at the key itself.
-std::optional<ModelReading::NamedText> ModelReading::text_of(TableReader& table,
-                                                             std::string_view key,
-                                                             const char* owner, std::size_t item) {
+std::optional<ModelReading::NamedText> ModelReading::text_of(
+    TableReader& table, std::string_view key, const char* owner, std::size_t item,
+    const std::function<std::size_t(const std::string&)>& columns_in) {
   const auto name = table.string(key);
   if (!name) return std::nullopt;
   const Where at = table.where(key);
@@ -26,16 +27,25 @@ std::optional<ModelReading::NamedText> ModelReading::text_of(TableReader& table,
                                      in_quotes(*name)));
       return std::nullopt;
     }
-    const std::filesystem::path path = files.folder / *name;
+    const SheetName sheet = sheet_name(*name);
+    const std::filesystem::path path = files.folder / sheet.file;
     auto content = file_bytes(path, FileKind::regular, most_text_bytes);
-    if (content) content = in_utf8(std::move(*content.value));
+    std::string place = path.string();
+    if (content && is_workbook(*content)) {
+      auto found = sheet_of(*content, sheet, columns_in);
+      if (found) place = fmt::format("{}#{}", path.string(), found->name);
+      content = found ? Parsed<std::string>(std::move(found.value->text))
+                      : Parsed<std::string>::failed(found.problem);
+    } else if (content) {
+      content = in_utf8(std::move(*content.value));
+    }
     if (!content) {
       table.problem(
           key, fmt::format("cannot read the file \"{}\"{}", path.string(),
                            content.problem.starts_with("cannot") ? "" : ": " + content.problem));
       return std::nullopt;
     }
-    result = {path.string(), *content};
+    result = {place, *content};
   }
   file_tables.push_back({owner, item, std::string(key), result.text});
   return result;
@@ -48,7 +58,11 @@ std::optional<Station> ModelReading::station(TableReader& table,
   const auto at = table.quantity("at", "m", Range::any);
   const auto node = table.integer("node", Range::positive);
   const auto body = table.string("body");
-  if (!has_at && !has_node && !has_body) {
+  const bool has_place = has_at || has_node || has_body;
+  if (const auto* named = has_place ? nullptr : take_place(named_places, table.path("at"))) {
+    return named->at;
+  }
+  if (!has_place) {
     std::vector<std::string> others{"node", "body"};
     others.insert(others.end(), instead.begin(), instead.end());
     table.missing("at", "a station: at = position, node = number, or body = name", others);

@@ -2,6 +2,7 @@
 /// A model while it is read: what the readers of its tables share.
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "libdyn/system/model.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/named_files.hpp"
+#include "libio/model/named_places.hpp"
 #include "libio/model/read_fields.hpp"
 
 namespace whirl::inline io {
@@ -53,6 +55,7 @@ class ModelReading {
     std::string key;
   };
   std::vector<MissingRadius> missing_radii;
+  std::vector<NamedPlace> named_places;  ///< parts that tables of stations name
 
   void add_problems(const std::vector<Problem>& found) {
     problems.insert(problems.end(), found.begin(), found.end());
@@ -88,9 +91,11 @@ class ModelReading {
     std::string name;  ///< for messages
     std::string text;
   };
-  /// @param owner, item  of the table, as in FileTable
-  std::optional<NamedText> text_of(TableReader& table, std::string_view key, const char* owner,
-                                   std::size_t item);
+  /// @param owner, item   of the table, as in FileTable
+  /// @param columns_in  how many columns of this kind of table a line names
+  std::optional<NamedText> text_of(
+      TableReader& table, std::string_view key, const char* owner, std::size_t item,
+      const std::function<std::size_t(const std::string&)>& columns_in);
 };
 
 template <class F>

@@ -99,7 +99,8 @@ void check_kind(TableReader& table, const ToldKind& told, bool is_rigid, bool ha
 
 std::optional<CoefficientTable> coefficient_table(ModelReading& reading, TableReader& table,
                                                   std::string_view key) {
-  const auto from = reading.text_of(table, key, "", 0);  // who owns it, its reader knows
+  const auto from = reading.text_of(table, key, "", 0,  // who owns it, its reader knows
+                                    coefficients_named_in);
   if (!from) return std::nullopt;
   std::vector<Problem> wrong;
   const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong, &reading.doubts);

@@ -18,54 +18,36 @@ namespace {
 constexpr double same_length = 1e-9;  ///< relative: rounding of units
 constexpr double most_in_row = 100'000, most_layers = 1000;
 
-/// Names of a diameter: outer or inner, at both ends or one.
-/// @param words  "od", "outer", ...
-ColumnKind diameter(const std::string& name, Range range, const std::vector<std::string>& words,
-                    const std::string& end = "") {
-  ColumnKind kind{.name = name, .unit = "m", .range = range};
-  for (const std::string& word : words) {
-    kind.synonyms.push_back(word + end);
-    if (end.empty()) continue;
-    kind.synonyms.push_back(end + word);
-    kind.synonyms.push_back(word + end[0]);
-  }
-  return kind;
-}
-
 const std::vector<ColumnKind>& shaft_columns() {
   using enum Range;
-  static const std::vector<std::string> outer{"od",         "outer",          "outerdia",
-                                              "odia",       "outerdiam",      "outerdiameter",
-                                              "outsidedia", "outsidediameter"};
-  static const std::vector<std::string> inner{"id",        "inner",          "innerdia",
-                                              "idia",      "innerdiam",      "innerdiameter",
-                                              "insidedia", "insidediameter", "bore"};
-  static const std::string positions =
-      "positions are no lengths and are not read; segments follow one another by a column length, "
-      "such as length [mm]";
   static const std::vector<ColumnKind> columns{
-      {.name = "length", .unit = "m", .range = positive, .synonyms = {"l", "len", "lg"}},
-      diameter("outer_diameter", positive, outer),
-      diameter("outer_left", positive, outer, "left"),
-      diameter("outer_right", positive, outer, "right"),
-      diameter("inner_diameter", nonnegative, inner),
-      diameter("inner_left", nonnegative, inner, "left"),
-      diameter("inner_right", nonnegative, inner, "right"),
-      {.name = "material", .is_text = true, .synonyms = {"mat", "matl"}},
-      {.name = "layer", .range = positive, .synonyms = {"layerno"}},
+      {.name = "length", .unit = "m", .range = nonnegative},
+      {.name = "outer_diameter", .unit = "m", .range = nonnegative},
+      {.name = "outer_left", .unit = "m", .range = nonnegative},
+      {.name = "outer_right", .unit = "m", .range = nonnegative},
+      {.name = "inner_diameter", .unit = "m", .range = nonnegative},
+      {.name = "inner_left", .unit = "m", .range = nonnegative},
+      {.name = "inner_right", .unit = "m", .range = nonnegative},
+      {.name = "material", .is_text = true},
+      {.name = "layer", .range = positive},
       {.name = "elements", .range = positive},
       {.name = "carries", .is_text = true},
-      {.name = "rayleigh_mass", .unit = "1/s", .range = nonnegative, .synonyms = {"alpha"}},
-      {.name = "rayleigh_stiffness", .unit = "s", .range = nonnegative, .synonyms = {"beta"}},
+      {.name = "rayleigh_mass", .unit = "1/s", .range = nonnegative},
+      {.name = "rayleigh_stiffness", .unit = "s", .range = nonnegative},
       {.name = "station",
        .is_text = true,
-       .synonyms = {"sta", "stano", "stationno", "stationnumber", "no", "nr", "#", "segment",
-                    "segmentno", "section", "sectionno", "row"},
-       .unit_problem = positions},
-      {.name = "position",
-       .unit = "m",
-       .synonyms = {"z", "at", "pos", "axialposition", "location", "axiallocation", "distance"},
-       .problem = positions}};
+       .unit_problem = "numbers of stations have no unit; positions stand in a column position, "
+                       "such as position [mm]"},
+      {.name = "position", .unit = "m"},
+      {.name = "name", .is_text = true},
+      {.name = "mass", .unit = "kg", .range = nonnegative},
+      {.name = "polar_inertia", .unit = "kg.m^2", .range = nonnegative},
+      {.name = "diametral_inertia", .unit = "kg.m^2", .range = nonnegative},
+      {.name = "unbalance", .unit = "kg.m", .range = nonnegative},
+      {.name = "unbalance_angle", .unit = "rad"},
+      {.name = "bearing", .is_text = true},
+      {.name = "seal", .is_text = true},
+      {.name = "probe", .is_text = true}};
   return columns;
 }
 
@@ -76,7 +58,9 @@ void check_columns(const DelimitedTable& table, const std::string& file,
   const auto missing = [&](const char* column, const char* expected) {
     problems.push_back({where, column, fmt::format("missing, expected {}", expected)});
   };
-  if (!table.has("length")) missing("length", "a column of lengths, as length [mm]");
+  if (!table.has("length") && !table.has("position")) {
+    missing("length", "a column of lengths, as length [mm]");
+  }
   for (const std::string side : {"outer", "inner"}) {
     const bool has_both = table.has(side + "_diameter"), has_left = table.has(side + "_left"),
                has_right = table.has(side + "_right");
@@ -131,6 +115,10 @@ void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
            "missing, expected the inner diameter (m) of the layer at both ends");
     return;
   }
+  if (*outer.first == 0.0 || *outer.second == 0.0) {
+    report(place_of(from, "outer"), "outer_diameter", "found 0, expected a length (m) above zero");
+    return;
+  }
   row.left = {*outer.first, inner.first.value_or(0.0)};
   row.right = {*outer.second, inner.second.value_or(0.0)};
   for (const Section& end : {row.left, row.right}) {
@@ -139,6 +127,61 @@ void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
            fmt::format("found {:g} mm, expected less than the outer diameter of {:g} mm",
                        1e3 * end.inner, 1e3 * end.outer));
     return;
+  }
+}
+
+/// What a row says of its left end.
+StationCells station_cells(const DelimitedRow& from) {
+  StationCells cells{.station = from.text("station"), .name = from.text("name")};
+  const auto mass = from.number("mass"), polar = from.number("polar_inertia"),
+             diametral = from.number("diametral_inertia");
+  cells.mass = mass.value_or(0.0);
+  cells.polar_inertia = polar.value_or(0.0);
+  cells.diametral_inertia = diametral.value_or(0.0);
+  cells.has_disk = cells.mass > 0.0 || cells.polar_inertia > 0.0 || cells.diametral_inertia > 0.0;
+  cells.unbalance = from.number("unbalance").value_or(0.0);
+  cells.unbalance_angle = from.number("unbalance_angle").value_or(0.0);
+  for (const char* kind : {"bearing", "seal", "probe"}) {
+    const std::string names = from.text(kind);
+    for (std::size_t start = 0; start < names.size();) {
+      const std::size_t end = std::min(names.find_first_of("/+,", start), names.size());
+      const std::string name = trimmed(std::string_view(names).substr(start, end - start));
+      if (!name.empty() && name != "-" && name != "0") {
+        cells.named.push_back({kind, name, from.place(kind)});
+      }
+      start = end + 1;
+    }
+  }
+  return cells;
+}
+
+/// Whether a row has no segment.
+bool is_end(const DelimitedRow& from, const DelimitedTable& table) {
+  if (&from != &table.rows.back() || table.rows.size() < 2) return false;
+  if (!table.has("length")) return from.number("layer").value_or(1.0) == 1.0;
+  const double length = from.number("length").value_or(0.0);
+  const bool has_outer = from.number("outer_diameter").value_or(0.0) > 0.0 ||
+                         from.number("outer_left").value_or(0.0) > 0.0;
+  return length == 0.0 && (from.number("length") || !has_outer);
+}
+
+/// Gives rows that have positions their lengths: each reaches to the next one of layer 1.
+void set_lengths(DelimitedTable& table, const std::string& file, std::vector<Problem>& problems) {
+  DelimitedRow* last = nullptr;
+  for (DelimitedRow& row : table.rows) {
+    if (row.number("layer").value_or(1.0) != 1.0) continue;
+    const Where where{file, row.line, row.place("position")};
+    const auto z = row.number("position");
+    if (!z) {
+      problems.push_back({where, "position", "missing, expected a length (m)"});
+      return;
+    }
+    if (last && !(*z > *last->number("position"))) {
+      problems.push_back({where, "position", "positions must ascend from line to line"});
+      return;
+    }
+    if (last) last->numbers["length"] = *z - *last->number("position");
+    last = &row;
   }
 }
 
@@ -154,6 +197,8 @@ void check_place(const DelimitedRow& from, const ShaftRow* base, bool has_layers
                  ? "missing, expected a length (m); or, if this lies on the row before, a column "
                    "layer with 2 here"
                  : "missing, expected a length (m)");
+    } else if (*length == 0.0) {
+      report(from.place("length"), "length", "found 0, expected a length (m) above zero");
     }
     if (row.carries != Carries::both) {
       report(from.place("carries"), "carries",
@@ -195,10 +240,15 @@ void read_carries(const DelimitedRow& from, ShaftRow& row, const ReportProblem& 
 
 }  // namespace
 
+std::size_t shaft_columns_named_in(const std::string& line) {
+  return columns_named_in(line, shaft_columns());
+}
+
 std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::string& file,
-                                        std::vector<Problem>& problems) {
+                                        std::vector<Problem>& problems,
+                                        std::vector<Problem>* doubts) {
   const std::size_t before = problems.size();
-  const DelimitedTable table = parse_delimited(text, file, shaft_columns(), problems);
+  DelimitedTable table = parse_delimited(text, file, shaft_columns(), problems, doubts);
   std::vector<ShaftRow> rows;
   if (table.header > 0 && problems.size() == before) check_columns(table, file, problems);
   if (problems.size() > before) return rows;
@@ -207,17 +257,23 @@ std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::stri
         {{file}, "", "the table has no rows; expected a line of column names and one per segment"});
     return rows;
   }
+  if (!table.has("length")) set_lengths(table, file, problems);
+  if (problems.size() > before) return rows;
   std::optional<ShaftRow> base;
   for (const DelimitedRow& from : table.rows) {
     const ReportProblem report = [&](int place, std::string key, std::string message) {
       problems.push_back({{file, from.line, place}, std::move(key), std::move(message)});
     };
     ShaftRow row{.line = from.line};
+    row.at_left = station_cells(from);
+    row.is_end = is_end(from, table);
+    if (row.is_end) {
+      rows.push_back(row);
+      break;
+    }
     row.layer = whole(from, "layer", most_layers, report).value_or(1);
     row.elements = whole(from, "elements", most_in_row, report).value_or(0);
-    if (const auto name = from.texts.find("material"); name != from.texts.end()) {
-      row.material = name->second;
-    }
+    row.material = from.text("material");
     row.material_place = from.place("material");
     row.damping = {from.number("rayleigh_mass").value_or(0.0),
                    from.number("rayleigh_stiffness").value_or(0.0)};

@@ -42,6 +42,8 @@ void for_each_outside(std::string_view line, F f) {
 
 bool delimits(char c, Delimiter delimiter) {
   switch (delimiter) {
+    case Delimiter::cell:
+      return c == cell_mark;
     case Delimiter::comma:
       return c == ',' || c == ';';
     case Delimiter::semicolon:
@@ -58,6 +60,7 @@ bool delimits(char c, Delimiter delimiter) {
 
 /// Bytes of the mark that a comment begins with; 0: it is none.
 std::size_t comment_mark(std::string_view line) {
+  if (line.find(cell_mark) != std::string_view::npos) return 0;  // a sheet has no comments
   const std::string text = trimmed(line);
   if (text.empty()) return 0;
   const auto begin = line.find_first_not_of(" \t\r\"");
@@ -98,13 +101,33 @@ std::size_t line_of_names(const std::vector<TableLine>& lines,
 }
 
 /// Whether a line below the names says something in words, and fills no row.
-bool is_note(const std::vector<Cell>& cells, std::size_t columns) {
+bool is_note(const std::vector<Cell>& cells, std::size_t columns, Delimiter delimiter) {
   const auto is_empty = [](const Cell& cell) { return cell.text.empty(); };
   const auto filled =
       cells.size() - static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_empty));
-  return filled < columns && !cells.empty() && !is_empty(cells.front()) &&
+  // in a sheet a table may begin at any column, and a note is one cell
+  const bool begins =
+      delimiter == Delimiter::cell ? filled == 1 : !cells.empty() && !is_empty(cells.front());
+  return filled < columns && begins &&
          std::none_of(cells.begin(), cells.end(),
                       [](const Cell& cell) { return begins_as_number(cell.text); });
+}
+
+/// Cells of a line of a sheet: the place of each is the number of its column.
+std::vector<Cell> cells_of_sheet(std::string_view line) {
+  std::vector<Cell> cells;
+  for (std::size_t start = 0; start <= line.size();) {
+    const std::size_t end = std::min(line.find(cell_mark, start), line.size());
+    cells.push_back({trimmed(line.substr(start, end - start)), static_cast<int>(cells.size()) + 1});
+    start = end + 1;
+  }
+  return cells;
+}
+
+/// Whether a line repeats the line of names, as prints do on every page.
+bool repeats(const std::vector<Cell>& names, const std::vector<Cell>& cells) {
+  return std::equal(names.begin(), names.end(), cells.begin(), cells.end(),
+                    [](const Cell& a, const Cell& b) { return a.text == b.text; });
 }
 
 /// The one comma or point of a number.
@@ -187,9 +210,20 @@ std::string trimmed(std::string_view text) {
 }
 
 std::string plain_name(std::string_view name) {
+  // letters of Latin-1 from 0xC0 on; in UTF-8 they are 0xC3 and a byte from 0x80 on
+  static constexpr std::string_view letters =
+      "aaaaaaaceeeeiiiidnooooo*ouuuuytsaaaaaaaceeeeiiiidnooooo/ouuuuyty";
   std::string plain;
-  for (const char c : name) {
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char c = name[i];
     if (std::string_view(" \t_-.").find(c) != std::string_view::npos) continue;
+    const unsigned char next = i + 1 < name.size() ? static_cast<unsigned char>(name[i + 1]) : 0;
+    if (c == '\xC3' && next >= 0x80 && next < 0xC0) {
+      plain += letters[next - 0x80u];
+      if (next == 0x9F) plain += 's';  // sharp s
+      ++i;
+      continue;
+    }
     plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return plain;
@@ -207,10 +241,10 @@ NameAndUnit name_and_unit(
             trimmed(std::string_view(cell).substr(from, size)), true};
   }
   if (is_known(cell, "")) return {cell, "", false};
-  for (const char* between : {",", " ", "_"}) {
+  for (const std::string_view between : {" / ", " in ", ",", " ", "_"}) {
     const auto at = cell.find(between);
     if (at == std::string::npos) continue;
-    const std::string name = cell.substr(0, at), unit = trimmed(cell.substr(at + 1));
+    const std::string name = cell.substr(0, at), unit = trimmed(cell.substr(at + between.size()));
     if (is_known(name, unit)) return {name, unit, true};
   }
   return {cell, "", false};
@@ -224,7 +258,7 @@ std::vector<TableLine> table_lines(
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
-    if (line.find_first_not_of(" \t\r\",;") == std::string::npos) continue;
+    if (line.find_first_not_of(" \t\r\",;\x1F") == std::string::npos) continue;
     if (comment_mark(line) > 0) {
       comment = {number, line};
       continue;
@@ -240,26 +274,25 @@ std::vector<TableLine> table_lines(
   return lines;
 }
 
-bool names_remarks(std::string_view name) {
-  static constexpr std::string_view words[] = {
-      "remark",    "remarks",     "comment",   "comments",   "note",     "notes",
-      "bemerkung", "bemerkungen", "kommentar", "kommentare", "remarque", "observaciones"};
-  return std::find(std::begin(words), std::end(words), plain_name(name)) != std::end(words);
-}
-
 std::vector<TableRow> table_rows(const std::vector<TableLine>& lines, Delimiter delimiter,
                                  std::size_t columns) {
   std::vector<TableRow> rows;
+  const std::vector<Cell> names =
+      lines.empty() ? std::vector<Cell>() : cells_of(lines[0].text, delimiter);
   for (std::size_t i = 1; i < lines.size(); ++i) {
     std::vector<Cell> cells = cells_of(lines[i].text, delimiter);
+    if (repeats(names, cells)) continue;
+    // a sheet's lines end with their last cell
+    if (delimiter == Delimiter::cell && cells.size() < columns) cells.resize(columns);
     while (cells.size() > columns && !begins_as_number(cells.back().text)) cells.pop_back();
     rows.push_back({&lines[i], std::move(cells)});
   }
-  while (!rows.empty() && is_note(rows.back().cells, columns)) rows.pop_back();
+  while (!rows.empty() && is_note(rows.back().cells, columns, delimiter)) rows.pop_back();
   return rows;
 }
 
 Delimiter delimiter_of(std::string_view line) {
+  if (line.find(cell_mark) != std::string_view::npos) return Delimiter::cell;
   bool has_semicolon = false, has_tab = false, has_comma = false;
   // a tab before the first name or behind the last delimits nothing
   const auto first = std::min(line.find_first_not_of(" \t\r"), line.size());
@@ -275,6 +308,7 @@ Delimiter delimiter_of(std::string_view line) {
 }
 
 std::vector<Cell> cells_of(std::string_view line, Delimiter delimiter) {
+  if (delimiter == Delimiter::cell) return cells_of_sheet(line);
   std::vector<Cell> cells;
   std::size_t start = 0, counted = 0;
   int place = 1;  // of the character at `counted`

@@ -16,12 +16,16 @@ namespace whirl::inline io {
 /// column, and what is wrong.
 using ReportProblem = std::function<void(int, std::string, std::string)>;
 
-enum class Delimiter { comma, semicolon, tab, bar, blanks };
+enum class Delimiter { comma, semicolon, tab, bar, blanks, cell };
+
+/// What stands between the cells of a line that comes from a sheet of a workbook (Delimiter::cell):
+/// the unit separator of ASCII, which no cell has. Quotes and brackets mean nothing there.
+constexpr char cell_mark = '\x1F';
 
 /// What stands between two delimiters, without blanks and quotes around it.
 struct Cell {
   std::string text;
-  int place = 1;  ///< in the line, in characters, from 1; of an empty one where it would begin
+  int place = 1;  ///< in the line, in characters, from 1; of a sheet the number of its column
 };
 
 /// A line of a table with something in it.
@@ -50,9 +54,6 @@ Delimiter delimiter_of(std::string_view line);
 /// Delimiters in quotes, (...) and [...] do not count. Where commas delimit, semicolons do, too.
 std::vector<Cell> cells_of(std::string_view line, Delimiter delimiter);
 
-/// Whether a name is that of a column of remarks, which nobody reads.
-bool names_remarks(std::string_view name);
-
 /// A line below the names.
 struct TableRow {
   const TableLine* line = nullptr;
@@ -60,7 +61,7 @@ struct TableRow {
 };
 
 /// The lines below the names as cells, without what people wrote beside and below: words behind the
-/// last column, and lines of words below the last row.
+/// last column, and lines of words below the last row; and without lines that repeat the names.
 /// @param lines  as table_lines gives them, the names first
 std::vector<TableRow> table_rows(const std::vector<TableLine>& lines, Delimiter delimiter,
                                  std::size_t columns);
@@ -96,7 +97,7 @@ bool is_line_of_units(const std::vector<Cell>& cells);
 /// Text without blanks and quotes around it.
 std::string trimmed(std::string_view text);
 
-/// A name in lower case, without what stands between its words (blanks, "_", "-", ".").
+/// A name in lower case, without accents and what stands between its words (blanks, "_", "-", ".").
 std::string plain_name(std::string_view name);
 
 /// What a cell of a line of names says.
@@ -105,8 +106,8 @@ struct NameAndUnit {
   bool has_unit = false;
 };
 
-/// Takes a unit in brackets off a cell; a unit behind a comma, a blank or "_" only if the whole
-/// cell is no known name.
+/// Takes a unit in brackets off a cell; a unit behind a comma, a blank, "_", "/" or "in" ("t / s",
+/// "time in s") only if the whole cell is no known name.
 /// @param is_known  whether a column has a name with a unit; empty unit: a name without one
 NameAndUnit name_and_unit(
     const std::string& cell,

@@ -16,20 +16,24 @@ namespace {
 using Spelling = std::pair<std::string_view, std::string_view>;
 
 /// Whole units, in lower case.
-constexpr Spelling wholes[] = {{"rpm", "rpm"},       {"cpm", "rpm"},      {"r/min", "rpm"},
-                               {"1/min", "rpm"},     {"min^-1", "rpm"},   {"min-1", "rpm"},
-                               {"u/min", "rpm"},     {"rev/min", "rpm"},  {"hz", "Hz"},
-                               {"cps", "Hz"},        {"rps", "Hz"},       {"rev/s", "Hz"},
-                               {"rad/sec", "rad/s"}, {"rads/s", "rad/s"}, {"rad/s", "rad/s"}};
+constexpr Spelling wholes[] = {
+    {"rpm", "rpm"},       {"cpm", "rpm"},      {"r/min", "rpm"},    {"1/min", "rpm"},
+    {"min^-1", "rpm"},    {"min-1", "rpm"},    {"u/min", "rpm"},    {"rev/min", "rpm"},
+    {"hz", "Hz"},         {"tr/min", "rpm"},   {"giri/min", "rpm"}, {"rot/min", "rpm"},
+    {"degrees", "deg"},   {"cps", "Hz"},       {"rps", "Hz"},       {"rev/s", "Hz"},
+    {"rad/sec", "rad/s"}, {"rads/s", "rad/s"}, {"rad/s", "rad/s"}};
 
 /// Words of units, in lower case.
 constexpr Spelling words[] = {
-    {"lb", "lbf"},    {"lbs", "lbf"},   {"lbf", "lbf"},   {"klb", "klbf"},  {"klbs", "klbf"},
-    {"klbf", "klbf"}, {"kip", "klbf"},  {"kips", "klbf"}, {"sec", "s"},     {"secs", "s"},
-    {"in", "in"},     {"ft", "ft"},     {"mm", "mm"},     {"mils", "mil"},  {"inch", "in"},
-    {"inches", "in"}, {"ns", "N.s"},    {"nm", "N.m"},    {"nms", "N.m.s"}, {"kns", "kN.s"},
-    {"knm", "kN.m"},  {"msec", "ms"},   {"msecs", "ms"},  {"second", "s"},  {"seconds", "s"},
-    {"micron", "um"}, {"microns", "um"}};
+    {"lb", "lbf"},    {"lbs", "lbf"},    {"lbf", "lbf"},   {"klb", "klbf"},  {"klbs", "klbf"},
+    {"klbf", "klbf"}, {"kip", "klbf"},   {"kips", "klbf"}, {"sec", "s"},     {"secs", "s"},
+    {"in", "in"},     {"ft", "ft"},      {"mm", "mm"},     {"mils", "mil"},  {"inch", "in"},
+    {"inches", "in"}, {"ns", "N.s"},     {"nm", "N.m"},    {"nms", "N.m.s"}, {"kns", "kN.s"},
+    {"knm", "kN.m"},  {"msec", "ms"},    {"msecs", "ms"},  {"second", "s"},  {"seconds", "s"},
+    {"micron", "um"}, {"microns", "um"}, {"kgm", "kg.m"},  {"gmm", "g.mm"}};
+
+/// Pounds as masses, in lower case.
+constexpr Spelling masses[] = {{"lb", "lb"}, {"lbs", "lb"}, {"lbm", "lb"}};
 
 bool is_latin_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0;
@@ -51,8 +55,30 @@ std::optional<std::string> meant_by(const std::string& text, const Spelling (&li
   return std::nullopt;
 }
 
+/// Without the brackets of a product that divides: "N/(m/s)" is "N/m.s", as "/" divides by the next
+/// factor alone.
+std::string without_brackets(std::string_view text) {
+  std::string result;
+  bool is_inside = false;
+  for (const char c : text) {
+    const bool begins = c == '(' && !is_inside && result.ends_with('/');
+    const bool ends = c == ')' && is_inside;
+    if (begins || ends) {
+      is_inside = begins;
+    } else if (is_inside && c == '/') {
+      result += '.';
+    } else if (is_inside && (c == '.' || c == '*' || c == '-')) {
+      result += '/';
+    } else {
+      result += c;
+    }
+  }
+  return is_inside ? std::string(text) : result;
+}
+
 /// A vendor's unit in the spelling of parse_as: words replaced, "-" between words a product.
-std::string respelled(std::string_view text) {
+/// @param has_masses  pounds are masses, not forces
+std::string respelled(std::string_view text, bool has_masses) {
   if (const auto whole = meant_by(lower(text), wholes)) return *whole;
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
@@ -60,7 +86,8 @@ std::string respelled(std::string_view text) {
     while (end < text.size() && is_latin_letter(text[end])) ++end;
     if (end > i) {
       const std::string word(text.substr(i, end - i));
-      result += meant_by(lower(word), words).value_or(word);
+      const auto mass = has_masses ? meant_by(lower(word), masses) : std::nullopt;
+      result += mass ? *mass : meant_by(lower(word), words).value_or(word);
       i = end;
       continue;
     }
@@ -78,8 +105,11 @@ Parsed<std::string> unit_in_table(std::string_view text, std::string_view si_uni
   using Result = Parsed<std::string>;
   const auto as_written = parse_as(fmt::format("1 {}", text), si_unit);
   if (as_written) return std::string(text);
-  const std::string meant = respelled(text);
-  if (parse_as("1 " + meant, si_unit)) return meant;
+  const std::string plain = without_brackets(text);
+  for (const bool has_masses : {false, true}) {
+    const std::string meant = respelled(plain, has_masses);
+    if (parse_as("1 " + meant, si_unit)) return meant;
+  }
   return Result::failed(as_written.problem);
 }
 

@@ -10,9 +10,11 @@ namespace whirl::inline io {
 
 /// The unit that a text means where `si_unit` is expected, in the spelling of parse_as.
 ///
-///   "lb/in" -> "lbf/in",  "klb-s/in" -> "klbf.s/in",  "RPM", "cpm", "1/min" -> "rpm"
+///   "lb/in" -> "lbf/in",  "klb-s/in" -> "klbf.s/in",  "RPM", "cpm", "1/min" -> "rpm",
+///   "N/(m/s)" -> "N/m.s"
 ///
-/// A unit that fits as it stands is left so. Pounds are forces where a mass would not fit.
+/// A unit that fits as it stands is left so. Pounds are forces where
+/// these fit, else masses: "lb-in^2" is a moment of inertia.
 ///
 /// @return  or what is wrong with the text as it stands
 Parsed<std::string> unit_in_table(std::string_view text, std::string_view si_unit);

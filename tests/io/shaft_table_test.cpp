@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "libfe/assembly/assemble.hpp"
+#include "libio/model/model_doubts.hpp"
 #include "tests/io/problems.hpp"
 #include "tests/io/result_folder.hpp"
 
@@ -74,7 +75,7 @@ TEST(ShaftTable, NamesOfColumnsAreTakenInAnyOrderAndSpelling) {
 TEST(ShaftTable, ProblemsNameTheirLines) {
   EXPECT_EQ(problems_in("length,outer_diameter\n1,0.1\n# \nx,0.1\n1,-2\n2\n"),
             "shaft.csv:4:1: length: \"x\" is not a number, expected a length (m)\n"
-            "shaft.csv:5:3: outer_diameter: found \"-2\", expected a length (m) above zero\n"
+            "shaft.csv:5:3: outer_diameter: found \"-2\", expected a length (m) of zero or more\n"
             "shaft.csv:6:2: found 1 columns, expected 2 as in the first line\n");
   EXPECT_EQ(problems_in("length,outer_diameter,inner_diameter\n,0.1,\n1,,\n1,0.1,0.1\n"),
             "shaft.csv:2:1: length: missing, expected a length (m)\n"
@@ -107,12 +108,76 @@ TEST(ShaftTable, NamesOfStationTablesAreKnown) {
             0u);
 }
 
-TEST(ShaftTable, PositionsAreNoLengths) {
-  for (const char* name : {"Position [mm]", "Station [mm]", "z", "Axial position (in)"}) {
-    const std::string found = problems_in(std::string("od;") + name + "\n1;2\n");
-    EXPECT_EQ(found.find("shaft.csv:1:4: "), 0u) << name;
-    EXPECT_NE(found.find("positions are no lengths and are not read"), std::string::npos) << name;
+// Positions of the ends of segments are the lengths between them; the last one is the end.
+TEST(ShaftTable, PositionsBecomeLengths) {
+  for (const char* name : {"Position [mm]", "z [mm]", "Axial position (mm)", "Lage [mm]"}) {
+    const auto t = rows(std::string(name) + ";od [mm]\n0;40\n100;50\n250;50\n");
+    ASSERT_EQ(t.size(), 3u) << name;
+    EXPECT_DOUBLE_EQ(t[0].length, 0.1);
+    EXPECT_DOUBLE_EQ(t[1].length, 0.15);
+    EXPECT_TRUE(t[2].is_end);
   }
+  EXPECT_EQ(problems_in("z [mm];od\n0;1\n100;1\n50;1\n"),
+            "shaft.csv:4:1: position: positions must ascend from line to line\n");
+  EXPECT_EQ(problems_in("Station [mm];od;l\n1;2;3\n").find("shaft.csv:1:1: station: numbers of "),
+            0u);
+}
+
+// What stands at the left end of a row, in the units and by the names of a station table; the last
+// row may be the end of the shaft.
+TEST(ShaftTable, StationsHaveMassesAndNamesOfParts) {
+  const auto t = rows(
+      "Sta. No.,Length (in),OD (in),Added Wt (lb),Ip (lb-in^2),It (lb-in**2),Unbal (oz-in),Brg,"
+      "Probe,Component\n"
+      "1,4,2,45.0,720,420,,,,Coupling\n"
+      "2,4,2,,,,1.5,DE,DE-X/DE-Y,\n"
+      "3,,,10,,,,NDE,,\n");
+  constexpr double lb = 0.45359237, in = 0.0254;
+  ASSERT_EQ(t.size(), 3u);
+  const StationCells &first = t[0].at_left, &second = t[1].at_left, &end = t[2].at_left;
+  EXPECT_TRUE(first.has_disk);
+  EXPECT_EQ(first.name, "Coupling");
+  EXPECT_DOUBLE_EQ(first.mass, 45.0 * lb);
+  EXPECT_DOUBLE_EQ(first.polar_inertia, 720.0 * lb * in * in);
+  EXPECT_DOUBLE_EQ(first.diametral_inertia, 420.0 * lb * in * in);
+  EXPECT_FALSE(second.has_disk);
+  EXPECT_DOUBLE_EQ(second.unbalance, 1.5 / 16.0 * lb * in);
+  ASSERT_EQ(second.named.size(), 3u);
+  EXPECT_EQ(second.named[0].kind + " " + second.named[0].name, "bearing DE");
+  EXPECT_EQ(second.named[1].name, "DE-X");
+  EXPECT_EQ(second.named[2].name, "DE-Y");
+  EXPECT_TRUE(t[2].is_end);
+  EXPECT_DOUBLE_EQ(end.mass, 10.0 * lb);
+  // a row without a length in the middle is none
+  EXPECT_EQ(problems_in("length,od\n1,1\n0,1\n1,1\n"),
+            "shaft.csv:3:1: length: found 0, expected a length (m) above zero\n");
+}
+
+// Columns that nobody knows are told and left; what is nearly a name is a mistake.
+TEST(ShaftTable, ColumnsThatAreNotKnownAreTold) {
+  std::vector<Problem> wrong, told;
+  const auto t = parse_shaft_table("length,od,Surface,No\n1,2,rough 3,1\n", "s.csv", wrong, &told);
+  EXPECT_EQ(t.size(), 1u);
+  EXPECT_TRUE(wrong.empty());
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(describe(told[0]).find("s.csv:1:11: Surface: this column is not known and not read"),
+            0u);
+}
+
+// Heads in other languages, a line of names that stands once more on the next page, blanks that
+// delimit.
+TEST(ShaftTable, HeadsOfOtherCountries) {
+  for (const char* head : {"Länge [mm];Außendurchmesser [mm];Bohrung [mm]",
+                           "Longueur (mm);Diamètre extérieur (mm);"
+                           "Alésage (mm)",
+                           "Comprimento (mm);Diâmetro externo (mm);Diâmetro interno (mm)"}) {
+    const auto t = rows(std::string(head) + "\n100;40,5;10\n" + head + "\n100;50,5;10\n");
+    ASSERT_EQ(t.size(), 2u) << head;
+    EXPECT_DOUBLE_EQ(t[1].left.outer, 0.0505);
+    EXPECT_DOUBLE_EQ(t[1].left.inner, 0.01);
+  }
+  EXPECT_DOUBLE_EQ(rows("Sta. No. Length (mm) O.D. (mm)\n1 100 40\n2 100 50\n")[1].left.outer,
+                   0.05);
 }
 
 TEST(ShaftTable, ThousandsAreNotTakenForDecimals) {
@@ -294,6 +359,43 @@ TEST_F(ShaftTableFile, ProblemsOfTableAndModelAreToldTogether) {
   // stations beyond the ends of a shaft that is not whole are no matter
   EXPECT_EQ(problem_of("length,od\n1,0.1\n", "[[disk]]\nat = 5\nmass = 1\n"),
             "t.csv:2:1: material: missing, expected the name of a material\n");
+}
+
+// Masses, unbalances and parts of a station table are those of [[disk]], [[unbalance]] and of
+// tables with stations of their own.
+TEST_F(ShaftTableFile, StationsAreThoseOfTablesWithPlaces) {
+  const std::string bearing = "stiffness = \"10 MN/m\"\n";
+  std::ofstream(folder / "stations.csv")
+      << "length [mm],od [mm],mass [kg],polar inertia [kg.m2],It [kg.m2],unbalance [g.mm],"
+         "unbalance angle [deg],bearing\n"
+         "100,40,,,,,,DE\n200,40,3,0.02,0.011,50,90,\n,,,,,,,ghost/2\n";
+  const std::string by_table = std::string(head) +
+                               "[[shaft]]\ntable = \"stations.csv\"\nmaterial = \"steel\"\n" +
+                               "[[bearing]]\nname = \"DE\"\n" + bearing + "[[bearing]]\n" + bearing;
+  const std::string shaft =
+      "[[shaft]]\nmaterial = \"steel\"\nouter_diameter = \"40 mm\"\nlength = ";
+  const std::string by_hand =
+      std::string(head) + shaft + "\"100 mm\"\n" + shaft + "\"200 mm\"\n" +
+      "[[disk]]\nat = \"100 mm\"\nmass = 3\npolar_inertia = 0.02\ndiametral_inertia = 0.011\n"
+      "[[unbalance]]\nat = \"100 mm\"\nmoment = \"50 g.mm\"\nphase = \"90 deg\"\n"
+      "[[bearing]]\nat = 0\n" +
+      bearing + "[[bearing]]\nat = \"300 mm\"\n" + bearing;
+  const Model model = parse_model(by_table, "m.toml", {}, folder), other = parse_model(by_hand);
+  const System a = assemble(model.structure, 100.0), b = assemble(other.structure, 100.0);
+  EXPECT_EQ(Mat(a.M - b.M).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_EQ(Mat(a.K - b.K).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_EQ(Mat(a.G() - b.G()).cwiseAbs().maxCoeff(), 0.0);
+  ASSERT_EQ(model.structure.unbalances.size(), 1u);
+  EXPECT_DOUBLE_EQ(model.structure.unbalances[0].moment, 50e-6);
+  std::string told;
+  for (const Problem& p : model_doubts(by_table, "m.toml", {}, folder)) told += describe(p) + "\n";
+  EXPECT_NE(told.find("stations.csv:4:8: bearing: the model has no [[bearing]] with name = "
+                      "\"ghost\""),
+            std::string::npos)
+      << told;
+  // what has a station of its own is there
+  const Model own = parse_model(by_table + "at = \"50 mm\"\n", "m.toml", {}, folder);
+  EXPECT_EQ(own.structure.bearings[1].from.z, 0.05);
 }
 
 }  // namespace shaft_table_test

@@ -8,12 +8,12 @@ namespace {
 
 void read_bow(ModelReading& reading) {
   TableReader table = reading.table("bow");
-  const auto from = reading.text_of(table, "table", "bow", 0);
+  const auto from = reading.text_of(table, "table", "bow", 0, bow_columns_named_in);
   if (reading.root.find("bow") && !table.has("table")) {
     table.missing("table", "a file with the shaft's deflections against position (CSV)");
   } else if (from) {
     std::vector<Problem> wrong;
-    reading.model.structure.bow = parse_bow_table(from->text, from->name, wrong);
+    reading.model.structure.bow = parse_bow_table(from->text, from->name, wrong, &reading.doubts);
     reading.add_problems(wrong);
     if (!reading.root.find("shaft"))
       table.problem("table", "a bow is one of a shaft: there is none");

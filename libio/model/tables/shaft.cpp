@@ -13,6 +13,45 @@ namespace whirl::inline io {
 
 namespace {
 
+/// Adds what is at the left end of a row: a disk, an unbalance, and which parts are there.
+void add_station(ModelReading& reading, const StationCells& cells, const Where& where) {
+  Structure& s = reading.model.structure;
+  const Station at{
+      .kind = Station::Kind::position, .z = s.length(), .where = where, .key = "station"};
+  const std::string number =
+      cells.station.empty() ? fmt::format("of line {}", where.line) : cells.station;
+  if (cells.has_disk) {
+    s.disks.push_back({.name = cells.name.empty() ? "station " + number : cells.name,
+                       .at = at,
+                       .m = cells.mass,
+                       .Id = cells.diametral_inertia,
+                       .Ip = cells.polar_inertia});
+  }
+  if (cells.unbalance > 0.0) s.unbalances.push_back({at, cells.unbalance, cells.unbalance_angle});
+  for (const auto& [kind, name, place] : cells.named) {
+    Where there = where;
+    there.column = place;
+    reading.named_places.push_back({kind, name, at, there});
+  }
+}
+
+/// The material of a row; what is wrong with it is reported.
+Material material_of(const ModelReading& reading, const ShaftRow& row, const Segment& common,
+                     bool has_common, const Where& where, std::vector<Problem>& wrong) {
+  const auto found = reading.materials.find(row.material);
+  if (found != reading.materials.end()) return found->second;
+  if (!row.material.empty()) {
+    const auto near = nearest(row.material, reading.material_names());
+    wrong.push_back({where, "material",
+                     fmt::format("found {}, expected one of {}{}", in_quotes(row.material),
+                                 fmt::join(reading.material_names(), ", "),
+                                 near ? fmt::format("; did you mean \"{}\"?", *near) : "")});
+  } else if (!has_common) {
+    wrong.push_back({where, "material", "missing, expected the name of a material"});
+  }
+  return common.material;
+}
+
 /// Adds the segments and layers of a table.
 /// @param common  what holds for rows that do not say otherwise
 void add_rows(ModelReading& reading, TableReader& table, const Segment& common,
@@ -20,23 +59,14 @@ void add_rows(ModelReading& reading, TableReader& table, const Segment& common,
   Structure& s = reading.model.structure;
   std::vector<Problem> wrong;
   std::vector<ShaftRow> rows;
-  const auto from = reading.text_of(table, "table", "shaft", number);
-  if (from) rows = parse_shaft_table(from->text, from->name, wrong);
+  const auto from = reading.text_of(table, "table", "shaft", number, shaft_columns_named_in);
+  if (from) rows = parse_shaft_table(from->text, from->name, wrong, &reading.doubts);
   for (const ShaftRow& row : rows) {
     const Where where{from->name, row.line, 1};
-    const Where at_material{from->name, row.line, row.material_place};
-    Material material = common.material;
-    if (const auto found = reading.materials.find(row.material); found != reading.materials.end()) {
-      material = found->second;
-    } else if (!row.material.empty()) {
-      const auto near = nearest(row.material, reading.material_names());
-      wrong.push_back({at_material, "material",
-                       fmt::format("found {}, expected one of {}{}", in_quotes(row.material),
-                                   fmt::join(reading.material_names(), ", "),
-                                   near ? fmt::format("; did you mean \"{}\"?", *near) : "")});
-    } else if (!table.has("material")) {
-      wrong.push_back({at_material, "material", "missing, expected the name of a material"});
-    }
+    if (row.layer == 1) add_station(reading, row.at_left, where);
+    if (row.is_end) break;
+    const Material material = material_of(reading, row, common, table.has("material"),
+                                          {from->name, row.line, row.material_place}, wrong);
     const Rayleigh damping = row.has_damping ? row.damping : common.damping;
     if (row.layer == 1) {
       Segment segment = common;
