@@ -20,6 +20,11 @@ struct MeasuredChannel {
   std::string unit{};
 };
 
+/// A channel of a file that is in no record, and why.
+struct ChannelLeftOut {
+  std::string name, why;
+};
+
 /// What was measured.
 struct MeasuredRecord {
   double rate = 0.0;   ///< samples per second [1/s]
@@ -27,6 +32,9 @@ struct MeasuredRecord {
   std::vector<MeasuredChannel> channels;
   Mat samples;  ///< samples x channels; lengths in m, voltages in V; NaN: missing
   std::vector<std::string> notes{};  ///< what its reader took for granted, in words
+  /// Channels of the same file with other lengths or times, which have no others.
+  std::vector<MeasuredRecord> others{};
+  std::vector<ChannelLeftOut> left_out{};
 
   double duration() const { return static_cast<double>(samples.rows()) / rate; }
   double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }

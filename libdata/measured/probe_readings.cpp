@@ -12,6 +12,38 @@ namespace whirl::inline data {
 
 namespace {
 
+/// What a file says of a channel that is not in the record that is read; empty: nothing.
+std::string elsewhere(const MeasuredRecord& all, const std::string& channel) {
+  const auto has_name = [&](const auto& c) { return c.name == channel; };
+  for (const ChannelLeftOut& c : all.left_out) {
+    if (has_name(c)) return fmt::format("channel \"{}\" was left out: {}", channel, c.why);
+  }
+  for (const MeasuredRecord& other : all.others) {
+    if (std::none_of(other.channels.begin(), other.channels.end(), has_name)) continue;
+    return fmt::format(
+        "channel \"{}\" has {} samples at {:.6g} per second, other channels of the probes {} at "
+        "{:.6g}: all have to be of one length and rate",
+        channel, other.samples.rows(), other.rate, all.samples.rows(), all.rate);
+  }
+  return "";
+}
+
+/// The record that has all channels of a setup by their names, else the first one.
+const MeasuredRecord& record_for(const MeasuredRecord& all, const MeasurementSetup& setup) {
+  std::vector<std::string> names;
+  for (const MeasuredProbe& p : setup.probes) names.push_back(p.channel);
+  if (setup.key_phasor) names.push_back(setup.key_phasor->channel);
+  const auto has_all = [&](const MeasuredRecord& record) {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      return std::any_of(record.channels.begin(), record.channels.end(),
+                         [&](const MeasuredChannel& c) { return c.name == name; });
+    });
+  };
+  if (has_all(all)) return all;
+  const auto other = std::find_if(all.others.begin(), all.others.end(), has_all);
+  return other == all.others.end() ? all : *other;
+}
+
 Eigen::Index channel_of(const MeasuredRecord& record, const std::string& channel,
                         const std::string& who) {
   const auto alike = std::count_if(record.channels.begin(), record.channels.end(),
@@ -22,6 +54,8 @@ Eigen::Index channel_of(const MeasuredRecord& record, const std::string& channel
         alike, channel, record.channel_list()));
   }
   if (const auto found = record.channel(channel)) return *found;
+  const std::string why = elsewhere(record, channel);
+  if (!why.empty()) throw OptionError(fmt::format("{}: {}", who, why));
   throw OptionError(fmt::format("{}: the record has no channel \"{}\"; it has {}", who, channel,
                                 record.channel_list()));
 }
@@ -123,7 +157,8 @@ void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
 
 }  // namespace
 
-ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup) {
+ProbeReadings probe_readings(const MeasuredRecord& all, const MeasurementSetup& setup) {
+  const MeasuredRecord& record = record_for(all, setup);
   ProbeReadings readings{.rate = record.rate, .start = record.start, .notes = record.notes};
   readings.displacement.resize(record.samples.rows(), std::ssize(setup.probes));
   std::vector<Eigen::Index> channels;

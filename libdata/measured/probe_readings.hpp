@@ -54,7 +54,8 @@ struct ProbeReadings {
   double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
 };
 
-/// Reads the channels of probes, and the key-phasor if there is one.
+/// Reads the channels of probes, and the key-phasor if there is one: those of the record, or if it
+/// has not all of these, of the one of its others that has.
 ///
 /// Numbers of a channel without a unit are voltages if the gain is one of voltages, else lengths in
 /// the unit of the probe. Shares of full scale are taken likewise, with a full scale of 1, where

@@ -72,6 +72,20 @@ void take_names(CsvHeader& header, const std::vector<std::string>& cells) {
 
 }  // namespace
 
+std::vector<CsvLine> csv_lines(std::string_view text) {
+  std::vector<CsvLine> lines;
+  int number = 0;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++number;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find_first_not_of(" \t\r") != std::string_view::npos) lines.push_back({number, line});
+  }
+  return lines;
+}
+
 double csv_rate_in(std::string_view line) {
   constexpr std::string_view marks = "#%!/\" \t";
   const auto first = line.find_first_not_of(marks);

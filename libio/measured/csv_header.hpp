@@ -16,6 +16,9 @@ struct CsvLine {
   std::string_view text;
 };
 
+/// Lines of a text that are not blank.
+std::vector<CsvLine> csv_lines(std::string_view text);
+
 /// In the order in which they are tried: commas may be decimal ones.
 inline constexpr std::array csv_delimiters{Delimiter::semicolon, Delimiter::tab, Delimiter::bar,
                                            Delimiter::comma, Delimiter::blanks};

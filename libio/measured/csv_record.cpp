@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
 #include "libio/measured/csv_header.hpp"
 #include "libio/measured/record_formats.hpp"
+#include "libio/measured/sample_cell.hpp"
 #include "libio/results/csv_tables.hpp"
 #include "libio/text/encoding.hpp"
 
@@ -27,44 +25,9 @@ struct CsvForm {
   std::size_t columns = 0;
 };
 
-std::vector<CsvLine> csv_lines(std::string_view text) {
-  std::vector<CsvLine> lines;
-  int number = 0;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.find_first_not_of(" \t\r") != std::string_view::npos) lines.push_back({number, line});
-  }
-  return lines;
-}
-
-/// What stands for a sample that is not there.
-bool is_missing(const std::string& cell) {
-  static constexpr std::array<std::string_view, 6> marks{"", "nan", "na", "n/a", "null", "-"};
-  std::string name = cell;
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::find(marks.begin(), marks.end(), name) != marks.end();
-}
-
-/// The number of a cell, whose comma or point is that of decimals; NaN for a missing one, nothing
-/// for any other text.
-std::optional<double> sample_of(std::string cell) {
-  if (is_missing(cell)) return nan;
-  std::replace(cell.begin(), cell.end(), ',', '.');
-  const char* begin = cell.data() + (cell.front() == '+' ? 1 : 0);
-  const char* end = cell.data() + cell.size();
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return std::isfinite(value) ? value : nan;
-}
-
 /// Words, which are no sample: neither a number, nor what looks like one or stands for one.
 bool is_remark(const Cell& cell) {
-  return !begins_as_number(cell.text) && !is_missing(cell.text);
+  return !begins_as_number(cell.text) && !is_missing(cell.text) && !is_no_reading(cell.text);
 }
 
 /// Cells of a line of a form, without what is behind a delimiter at its end.
@@ -220,6 +183,8 @@ class CsvSamples {
     for (std::size_t c = 0; c < count; ++c) add(cells[c], line, c);
   }
 
+  void tell_no_readings() { no_readings_.tell(raw_); }
+
   /// @throws ModelError  for a comma or point that may be that of thousands or of decimals
   void require_one_reading() {
     for (const Doubt& doubt : {comma_, point_}) {
@@ -262,6 +227,9 @@ class CsvSamples {
                       begins_as_number(cell.text) ? " without marks of thousands" : ""));
     }
     raw_.channels[c].samples.push_back(*value);
+    if (std::isnan(*value) && is_no_reading(cell.text)) {
+      no_readings_.add(cell.text, c, {raw_.file, line.number, cell.place});
+    }
     if (const char mark = marks_.add(cell.text); mark != '\0') {
       Doubt& first = mark == ',' ? comma_ : point_;
       if (first.cell.empty()) {
@@ -279,6 +247,7 @@ class CsvSamples {
   RawRecord& raw_;
   CsvForm form_;
   NumberMarks marks_;
+  NoReadings no_readings_;
   Doubt comma_, point_;
   bool may_be_decimals_ = false;  ///< commas: nothing shows that they stand between columns
 };
@@ -289,7 +258,11 @@ RawRecord read_csv_record(const std::filesystem::path& path) {
   const std::string file = path.string();
   const auto text = in_utf8(record_bytes(path));
   if (!text) throw ModelError({file}, "", text.problem);
-  std::vector<CsvLine> lines = csv_lines(*text);
+  return read_csv_text(*text, file);
+}
+
+RawRecord read_csv_text(const std::string& text, const std::string& file) {
+  std::vector<CsvLine> lines = csv_lines(text);
   const auto body = body_of(lines);
   if (!body) throw no_numbers(file, lines);
   auto [form, first] = *body;
@@ -310,6 +283,7 @@ RawRecord read_csv_record(const std::filesystem::path& path) {
   CsvSamples samples(raw, form, header.has_names);
   for (std::size_t i = first; i < lines.size(); ++i) samples.add(lines[i], lines[first].number);
   samples.require_one_reading();
+  samples.tell_no_readings();
   return raw;
 }
 

@@ -1,8 +1,8 @@
 // Records of measurements and files of probes: a record comes of a file, or one problem with its
 // place, and what its channels mean is found or refused.
 //
-// The first letter of an input says what it is: c a table, u a universal file, w a sound file, p a
-// file of probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of
+// The first letter of an input says what it is: c a table, l a file of LabVIEW in text, u a universal
+// file, w a sound file, p a file of probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of
 // foreign.cpp.)
 
 #include <cmath>
@@ -84,6 +84,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   switch (data[0]) {
     case 'c':
       read(scratch.folder / "record.csv", text);
+      break;
+    case 'l':
+      read(scratch.folder / "record.lvm", text);
       break;
     case 'u':
       read(scratch.folder / "record.uff", text);
