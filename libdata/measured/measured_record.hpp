@@ -18,6 +18,11 @@ struct MeasuredChannel {
   std::string name;
   /// Unit of its samples: "m", "V", share_of_full_scale or any other; "": the file does not say it.
   std::string unit{};
+  std::string path{};  ///< another name that it has, with those of its groups; "": none
+
+  bool is_called(const std::string& other) const {
+    return name == other || (!path.empty() && path == other);
+  }
 };
 
 /// A channel of a file that is in no record, and why.
@@ -40,7 +45,7 @@ struct MeasuredRecord {
   double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
   /// Names of the channels, for messages: "x [m], y [m]".
   std::string channel_list() const;
-  /// The channel of a name, or if no channel has that name, the channel of that number from 1.
+  /// The channel of a name or path, or if no channel has that, the channel of that number from 1.
   std::optional<Eigen::Index> channel(const std::string& name) const;
 };
 

@@ -14,9 +14,9 @@ namespace {
 
 /// What a file says of a channel that is not in the record that is read; empty: nothing.
 std::string elsewhere(const MeasuredRecord& all, const std::string& channel) {
-  const auto has_name = [&](const auto& c) { return c.name == channel; };
+  const auto has_name = [&](const MeasuredChannel& c) { return c.is_called(channel); };
   for (const ChannelLeftOut& c : all.left_out) {
-    if (has_name(c)) return fmt::format("channel \"{}\" was left out: {}", channel, c.why);
+    if (c.name == channel) return fmt::format("channel \"{}\" was left out: {}", channel, c.why);
   }
   for (const MeasuredRecord& other : all.others) {
     if (std::none_of(other.channels.begin(), other.channels.end(), has_name)) continue;
@@ -36,7 +36,7 @@ const MeasuredRecord& record_for(const MeasuredRecord& all, const MeasurementSet
   const auto has_all = [&](const MeasuredRecord& record) {
     return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
       return std::any_of(record.channels.begin(), record.channels.end(),
-                         [&](const MeasuredChannel& c) { return c.name == name; });
+                         [&](const MeasuredChannel& c) { return c.is_called(name); });
     });
   };
   if (has_all(all)) return all;
@@ -47,7 +47,7 @@ const MeasuredRecord& record_for(const MeasuredRecord& all, const MeasurementSet
 Eigen::Index channel_of(const MeasuredRecord& record, const std::string& channel,
                         const std::string& who) {
   const auto alike = std::count_if(record.channels.begin(), record.channels.end(),
-                                   [&](const MeasuredChannel& c) { return c.name == channel; });
+                                   [&](const MeasuredChannel& c) { return c.is_called(channel); });
   if (alike > 1) {
     throw OptionError(fmt::format(
         "{}: {} channels of the record are called \"{}\": give its number from 1; it has {}", who,

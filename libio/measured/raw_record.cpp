@@ -109,8 +109,9 @@ Eigen::Map<const Vec> samples_of(const RawChannel& channel) {
 /// The channel of times: by its name, else the first one in a unit of time, in whatever language,
 /// which always ascends where the rate is known.
 std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, bool is_rate_known) {
-  const auto named = std::find_if(channels.begin(), channels.end(),
-                                  [](const RawChannel& c) { return !c.clock && names_time(c.name); });
+  const auto named = std::find_if(channels.begin(), channels.end(), [](const RawChannel& c) {
+    return !c.clock && names_time(c.name);
+  });
   if (named != channels.end()) return named;
   std::map<std::string, bool> is_time;  // each unit is read once: there may be many channels
   return std::find_if(channels.begin(), channels.end(), [&](const RawChannel& c) {
@@ -214,20 +215,11 @@ MeasuredRecord as_record(RawRecord raw) {
                                    n, raw.channels.front().name));
     }
     const ChannelUnit unit = channel_unit(channel.unit);
-    record.channels.push_back({channel.name, unit.name});
+    record.channels.push_back({channel.name, unit.name, channel.path});
     record.samples.col(static_cast<Eigen::Index>(i)) =
         unit.factor * Eigen::Map<const Vec>(channel.samples.data(), static_cast<Eigen::Index>(n));
   }
   return record;
-}
-
-/// Checks that a channel has a sample for each time.
-void require_length(const RawChannel& channel, const RawChannel& times) {
-  const std::size_t n = channel.samples.size();
-  if (n == times.samples.size()) return;
-  throw ModelError(times.where, times.name,
-                   fmt::format("has {} times, and no channel has as many samples: {} has {}",
-                               times.samples.size(), channel.name, n));
 }
 
 MeasuredRecord finished_part(RawRecord raw, std::optional<double> rate) {
@@ -276,13 +268,8 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
     times = std::move(*time);
     raw.channels.erase(time);
   }
-  std::vector<RawRecord> parts = parts_of(std::move(raw), times ? times->samples.size() : 0);
-  RawRecord& first = parts.front();
-  if (times) {
-    for (const RawChannel& c : first.channels) require_length(c, *times);
-    first.channels.push_back(std::move(*times));
-  }
-  MeasuredRecord record = finished_part(std::move(first), rate);
+  std::vector<RawRecord> parts = parts_of(std::move(raw), std::move(times));
+  MeasuredRecord record = finished_part(std::move(parts.front()), rate);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     std::vector<ChannelLeftOut> channels;
     for (const RawChannel& c : parts[i].channels) channels.push_back({c.name, ""});

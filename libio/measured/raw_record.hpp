@@ -19,7 +19,8 @@ struct RawChannel {
   std::string unit{};  ///< as it is written
   std::vector<double> samples;
   Where where{};               ///< for messages
-  std::optional<int> clock{};  ///< which of the record's clocks its samples go by; none: the record
+  std::optional<int> clock{};  ///< which of the record's clocks its samples go by; none: its own
+  std::string path{};          ///< with the names of groups that it is in, where a name may do
 };
 
 /// Times that some channels of a file have, and others have not.
@@ -44,8 +45,8 @@ struct RawRecord {
 
 template <class Bytes>
 void travel(Bytes& bytes, Is<RawChannel> auto& channel) {
-  auto& [name, unit, samples, where, clock] = channel;
-  bytes(name, unit, samples, where, clock);
+  auto& [name, unit, samples, where, clock, path] = channel;
+  bytes(name, unit, samples, where, clock, path);
 }
 
 template <class Bytes>

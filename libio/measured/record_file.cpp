@@ -21,7 +21,7 @@ struct RecordFormat {
   void (*write)(const fs::path&, const MeasuredRecord&, Replaces);  ///< nothing: is read only
 };
 
-constexpr std::array<RecordFormat, 7> record_formats{{
+constexpr std::array<RecordFormat, 8> record_formats{{
     {" .csv .txt .tsv .dat .asc ", read_csv_record, write_csv_record},
     {" .wav ", read_wav_record, write_wav_record},
     {" .mat ", read_matlab_record, write_matlab_record},
@@ -29,6 +29,7 @@ constexpr std::array<RecordFormat, 7> record_formats{{
     {" .ufb ", read_universal_record, write_binary_universal_record},
     {" .h5 .hdf5 ", read_hdf5_record, write_hdf5_record},
     {" .lvm ", read_lvm_record, nullptr},
+    {" .tdms ", read_tdms_record, nullptr},
 }};
 
 const RecordFormat& format_of(const fs::path& path) {
@@ -40,7 +41,7 @@ const RecordFormat& format_of(const fs::path& path) {
   }
   throw ModelError({path.string()}, "",
                    "expected a record of a measurement, whose ending says its format: .csv .txt "
-                   ".tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5, .lvm");
+                   ".tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5, .lvm, .tdms");
 }
 
 const RecordFormat& written_format_of(const fs::path& path) {

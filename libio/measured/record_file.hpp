@@ -17,6 +17,7 @@ namespace whirl::inline io {
 ///   .uff .unv .ufb             universal file, datasets 58 and 58b of responses over time
 ///   .h5 .hdf5                  datasets of one length, with an attribute `units`
 ///   .lvm                       LabVIEW measurement, text
+///   .tdms                      channels of LabVIEW in groups
 ///
 /// @param rate  samples per second, for files that do not say it [1/s]
 /// @throws ModelError  for what is wrong in a file, with its line or record and what was expected

@@ -14,6 +14,7 @@ RawRecord read_csv_record(const std::filesystem::path& path);
 /// @param file  for messages
 RawRecord read_csv_text(const std::string& text, const std::string& file);
 RawRecord read_lvm_record(const std::filesystem::path& path);
+RawRecord read_tdms_record(const std::filesystem::path& path);
 RawRecord read_wav_record(const std::filesystem::path& path);
 RawRecord read_matlab_record(const std::filesystem::path& path);
 /// @source [UniversalFile58]

@@ -72,18 +72,9 @@ RawRecord head_of(const RawRecord& raw, int clock) {
   return part;
 }
 
-}  // namespace
-
-std::vector<RawRecord> parts_of(RawRecord raw, std::size_t time_samples) {
-  std::map<PartKey, std::size_t> counts;
-  for (const RawChannel& c : raw.channels) {
-    if (c.samples.size() >= fewest_samples || c.samples.size() == time_samples) ++counts[key_of(c)];
-  }
-  // channels of a few samples, all of one clock: whether they are as long is told later
-  const bool is_one = counts.empty() && std::none_of(raw.channels.begin(), raw.channels.end(),
-                                                     [](const auto& c) { return c.clock; });
-  if (is_one || raw.channels.empty()) return {std::move(raw)};
-  if (counts.empty()) ++counts[key_of(raw.channels.front())];
+/// Keys of parts, that of the record first.
+std::vector<PartKey> in_order(const std::map<PartKey, std::size_t>& counts,
+                              std::size_t time_samples) {
   std::vector<PartKey> keys;
   for (const auto& [key, count] : counts) keys.push_back(key);
   const auto rank = [&](const PartKey& key) {
@@ -93,17 +84,52 @@ std::vector<RawRecord> parts_of(RawRecord raw, std::size_t time_samples) {
   };
   std::stable_sort(keys.begin(), keys.end(),
                    [&](const PartKey& a, const PartKey& b) { return rank(a) < rank(b); });
+  return keys;
+}
+
+}  // namespace
+
+std::vector<RawRecord> parts_of(RawRecord raw, std::optional<RawChannel> times) {
+  const auto goes_by_record = [](const RawChannel& c) { return !c.clock; };
+  if (times && !raw.channels.empty() &&
+      std::none_of(raw.channels.begin(), raw.channels.end(), goes_by_record)) {
+    raw.left_out.push_back({times->name, "the other channels say their rate themselves"});
+    times.reset();
+  }
+  const std::size_t time_samples = times ? times->samples.size() : 0;
+  std::map<PartKey, std::size_t> counts;
+  for (const RawChannel& c : raw.channels) {
+    if (c.samples.size() >= fewest_samples || c.samples.size() == time_samples) ++counts[key_of(c)];
+  }
+  if (times && !raw.channels.empty() && !counts.contains({-1, time_samples})) {
+    const auto other = std::find_if(raw.channels.begin(), raw.channels.end(), goes_by_record);
+    throw ModelError(times->where, times->name,
+                     fmt::format("has {} times, and no channel has as many samples: {} has {}",
+                                 time_samples, other->name, other->samples.size()));
+  }
+  // channels of a few samples, all of one clock: whether they are as long is told later
+  const bool is_one =
+      counts.empty() && std::all_of(raw.channels.begin(), raw.channels.end(), goes_by_record);
+  if (is_one) {
+    if (times) raw.channels.push_back(std::move(*times));
+    return {std::move(raw)};
+  }
+  if (counts.empty()) ++counts[key_of(raw.channels.front())];
+  const std::vector<PartKey> keys = in_order(counts, time_samples);
+  std::map<PartKey, std::size_t> numbers;
   std::vector<RawRecord> parts;
   for (const PartKey& key : keys) {
+    numbers[key] = parts.size();
     parts.push_back(head_of(raw, key.first));
     note_others(parts.back(), key, raw.channels);
   }
   for (RawChannel& c : raw.channels) {
-    const auto key = std::find(keys.begin(), keys.end(), key_of(c));
-    if (key == keys.end()) continue;
+    const auto number = numbers.find(key_of(c));
+    if (number == numbers.end()) continue;
     c.clock.reset();
-    parts[static_cast<std::size_t>(key - keys.begin())].channels.push_back(std::move(c));
+    parts[number->second].channels.push_back(std::move(c));
   }
+  if (times) parts.front().channels.push_back(std::move(*times));
   return parts;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Channels of a file that go together: those of one length and one clock.
 
+#include <optional>
 #include <vector>
 
 #include "libio/measured/raw_record.hpp"
@@ -13,9 +14,10 @@ namespace whirl::inline io {
 /// of as many the longer ones. Vectors too short for a measurement are in no part, unless the file
 /// has no others.
 ///
-/// @param raw           channels by the record's own clock have their times no more
-/// @param time_samples  of the record's channel of times; 0: it has none
-/// @return              one part or more; one without channels, if there are none
-std::vector<RawRecord> parts_of(RawRecord raw, std::size_t time_samples);
+/// @param times  the record's channel of times, which `raw` has no more; nothing: it has none
+/// @return       one part or more; one without channels, if there are none. The first one has the
+///               times, too, unless all channels have clocks of their own
+/// @throws ModelError  where no channel is as long as the times
+std::vector<RawRecord> parts_of(RawRecord raw, std::optional<RawChannel> times);
 
 }  // namespace whirl::inline io

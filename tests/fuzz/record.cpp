@@ -1,8 +1,8 @@
 // Records of measurements and files of probes: a record comes of a file, or one problem with its
 // place, and what its channels mean is found or refused.
 //
-// The first letter of an input says what it is: c a table, l a file of LabVIEW in text, u a universal
-// file, w a sound file, p a file of probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of
+// The first letter of an input says what it is: c a table, l a file of LabVIEW in text, t a TDMS
+// file, u a universal file, w a sound file, p a file of probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of
 // foreign.cpp.)
 
 #include <cmath>
@@ -87,6 +87,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 'l':
       read(scratch.folder / "record.lvm", text);
+      break;
+    case 't':
+      read(scratch.folder / "record.tdms", text);
       break;
     case 'u':
       read(scratch.folder / "record.uff", text);
