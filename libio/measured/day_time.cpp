@@ -1,5 +1,6 @@
 #include "libio/measured/day_time.hpp"
 
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -58,6 +59,28 @@ std::optional<long> take_day(std::string_view& text) {
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
 
+/// Takes a date off a text whose day, month and year stand in another order, such as 5/1/2024 and
+/// 01.05.24.
+bool take_other_day(std::string_view& text) {
+  std::string_view rest = text;
+  for (int part = 0; part < 3; ++part) {
+    if (part > 0 && !take_sign(rest, "./-")) return false;
+    if (!take_digits(rest, 1, part < 2 ? 2 : 4)) return false;
+  }
+  text = rest;
+  return true;
+}
+
+/// 'a' or 'p' of " AM", "pm"; nothing: the text is no such word.
+std::optional<char> half_of_day(std::string_view text) {
+  while (take_sign(text, " ")) {
+  }
+  if (text.size() != 2) return std::nullopt;
+  const auto half = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  const bool is_half = (half == 'a' || half == 'p') && (text[1] == 'm' || text[1] == 'M');
+  return is_half ? std::optional(half) : std::nullopt;
+}
+
 std::optional<double> take_time(std::string_view& text) {
   constexpr double minute = 60.0, hour = 3600.0;
   std::string_view rest = text;
@@ -97,13 +120,20 @@ double seconds_between(const Stamp& from, const Stamp& to) {
 std::optional<Stamp> stamp_of(std::string_view text) {
   Stamp stamp;
   stamp.day = take_day(text);
-  if (stamp.day && !take_sign(text, " T_")) return std::nullopt;
+  const bool has_day = stamp.day || take_other_day(text);
+  if (has_day && !take_sign(text, " T_")) return std::nullopt;
   while (take_sign(text, " ")) {
   }
-  const auto time = take_time(text);
+  auto time = take_time(text);
   if (!time) return std::nullopt;
+  if (const auto half = half_of_day(text)) {
+    constexpr double hour = 3600.0, noon = 12.0 * hour;
+    if (!(*time < noon + hour)) return std::nullopt;
+    *time = std::fmod(*time, noon) + (*half == 'p' ? noon : 0.0);
+    text = {};
+  }
   stamp.time = *time;
-  if (stamp.day) take_sign(text, "Z");
+  if (has_day) take_sign(text, "Z");
   if (!text.empty()) return std::nullopt;
   return stamp;
 }

@@ -127,6 +127,7 @@ std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, boo
 void name_ramp(RawRecord& raw, std::optional<double> rate) {
   constexpr double longest_step = 0.1;  // nobody records vibrations with longer ones [s]
   RawChannel& first = raw.channels.front();
+  if (!first.unit.empty()) return;
   for (const RawChannel& c : raw.channels) {
     if (!c.name.empty()) return;
   }
