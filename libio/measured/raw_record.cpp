@@ -109,9 +109,11 @@ Eigen::Map<const Vec> samples_of(const RawChannel& channel) {
 /// The channel of times: by its name, else the first one in a unit of time, in whatever language,
 /// which always ascends where the rate is known.
 std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, bool is_rate_known) {
-  const auto named = std::find_if(channels.begin(), channels.end(), [](const RawChannel& c) {
-    return !c.clock && names_time(c.name);
-  });
+  // T may be a temperature beside t
+  const auto is_named = [](const RawChannel& c) { return !c.clock && names_time(c.name); };
+  auto named = std::find_if(channels.begin(), channels.end(),
+                            [&](const RawChannel& c) { return is_named(c) && ascends(c.samples); });
+  if (named == channels.end()) named = std::find_if(channels.begin(), channels.end(), is_named);
   if (named != channels.end()) return named;
   std::map<std::string, bool> is_time;  // each unit is read once: there may be many channels
   return std::find_if(channels.begin(), channels.end(), [&](const RawChannel& c) {
@@ -244,6 +246,11 @@ bool is_one_of(const std::string& name, std::initializer_list<std::string_view> 
 }
 
 }  // namespace
+
+bool ascends(const std::vector<double>& samples) {
+  return std::adjacent_find(samples.begin(), samples.end(),
+                            [](double a, double b) { return !(a < b); }) == samples.end();
+}
 
 Parsed<double> seconds_in(const std::string& unit) {
   if (unit.empty()) return 1.0;

@@ -91,6 +91,9 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate);
 /// Seconds of a unit of time; 1 of none.
 Parsed<double> seconds_in(const std::string& unit);
 
+/// Whether each number is larger than the one before.
+bool ascends(const std::vector<double>& samples);
+
 /// Whether a name is that of times.
 bool names_time(const std::string& name);
 /// Whether a name is that of a number of samples per second.

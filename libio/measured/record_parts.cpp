@@ -91,25 +91,28 @@ std::vector<PartKey> in_order(const std::map<PartKey, std::size_t>& counts,
 
 std::vector<RawRecord> parts_of(RawRecord raw, std::optional<RawChannel> times) {
   const auto goes_by_record = [](const RawChannel& c) { return !c.clock; };
+  const bool have_clocks = !std::all_of(raw.channels.begin(), raw.channels.end(), goes_by_record);
+  const auto is_timed = [&](const RawChannel& c) {
+    return goes_by_record(c) && times && c.samples.size() == times->samples.size();
+  };
   if (times && !raw.channels.empty() &&
-      std::none_of(raw.channels.begin(), raw.channels.end(), goes_by_record)) {
+      std::none_of(raw.channels.begin(), raw.channels.end(), is_timed)) {
+    if (!have_clocks) {
+      const RawChannel& other = raw.channels.front();
+      throw ModelError(times->where, times->name,
+                       fmt::format("has {} times, and no channel has as many samples: {} has {}",
+                                   times->samples.size(), other.name, other.samples.size()));
+    }
     raw.left_out.push_back({times->name, "the other channels say their rate themselves"});
     times.reset();
   }
   const std::size_t time_samples = times ? times->samples.size() : 0;
   std::map<PartKey, std::size_t> counts;
   for (const RawChannel& c : raw.channels) {
-    if (c.samples.size() >= fewest_samples || c.samples.size() == time_samples) ++counts[key_of(c)];
-  }
-  if (times && !raw.channels.empty() && !counts.contains({-1, time_samples})) {
-    const auto other = std::find_if(raw.channels.begin(), raw.channels.end(), goes_by_record);
-    throw ModelError(times->where, times->name,
-                     fmt::format("has {} times, and no channel has as many samples: {} has {}",
-                                 time_samples, other->name, other->samples.size()));
+    if (c.samples.size() >= fewest_samples || is_timed(c)) ++counts[key_of(c)];
   }
   // channels of a few samples, all of one clock: whether they are as long is told later
-  const bool is_one =
-      counts.empty() && std::all_of(raw.channels.begin(), raw.channels.end(), goes_by_record);
+  const bool is_one = counts.empty() && !have_clocks;
   if (is_one) {
     if (times) raw.channels.push_back(std::move(*times));
     return {std::move(raw)};
