@@ -14,6 +14,12 @@ namespace whirl::inline data {
 /// only the recorder knows.
 inline const std::string share_of_full_scale = "FS";
 
+/// What a sample of 1 is in a channel of shares of full scale.
+struct FullScale {
+  double value = 1.0;  ///< above zero
+  std::string unit{};  ///< "V" or "m"
+};
+
 struct MeasuredChannel {
   std::string name;
   /// Unit of its samples: "m", "V", share_of_full_scale or any other; "": the file does not say it.
