@@ -21,8 +21,10 @@ struct KeyPhasor {
   std::string channel;              ///< name or number
   std::optional<double> threshold;  ///< [V, m, or as the channel]; nothing: halfway of its range
   PulseEdge slope = PulseEdge::rising;
-  int pulses = 1;      ///< per revolution
-  double angle = 0.0;  ///< of the rotor at a pulse, from +x towards +y [rad]
+  int pulses = 1;                         ///< per revolution
+  double angle = 0.0;                     ///< of the rotor at a pulse, from +x towards +y [rad]
+  std::string threshold_unit{};           ///< "V" or "m"; "": that of the channel
+  std::optional<FullScale> full_scale{};  ///< of a channel of shares
 
   static constexpr auto fields() {
     using enum Range;

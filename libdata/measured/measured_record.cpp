@@ -62,7 +62,7 @@ std::string MeasuredRecord::channel_list() const {
 
 std::optional<Eigen::Index> MeasuredRecord::channel(const std::string& name) const {
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    if (channels[i].name == name) return static_cast<Eigen::Index>(i);
+    if (channels[i].is_called(name)) return static_cast<Eigen::Index>(i);
   }
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);

@@ -14,10 +14,26 @@ namespace whirl::inline data {
 /// only the recorder knows.
 inline const std::string share_of_full_scale = "FS";
 
+/// What a sample of 1 is in a channel of shares of full scale.
+struct FullScale {
+  double value = 1.0;  ///< above zero
+  std::string unit{};  ///< "V" or "m"
+};
+
 struct MeasuredChannel {
   std::string name;
   /// Unit of its samples: "m", "V", share_of_full_scale or any other; "": the file does not say it.
   std::string unit{};
+  std::string path{};  ///< another name that it has, with those of its groups; "": none
+
+  bool is_called(const std::string& other) const {
+    return name == other || (!path.empty() && path == other);
+  }
+};
+
+/// A channel of a file that is in no record, and why.
+struct ChannelLeftOut {
+  std::string name, why;
 };
 
 /// What was measured.
@@ -27,12 +43,15 @@ struct MeasuredRecord {
   std::vector<MeasuredChannel> channels;
   Mat samples;  ///< samples x channels; lengths in m, voltages in V; NaN: missing
   std::vector<std::string> notes{};  ///< what its reader took for granted, in words
+  /// Channels of the same file with other lengths or times, which have no others.
+  std::vector<MeasuredRecord> others{};
+  std::vector<ChannelLeftOut> left_out{};
 
   double duration() const { return static_cast<double>(samples.rows()) / rate; }
   double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
   /// Names of the channels, for messages: "x [m], y [m]".
   std::string channel_list() const;
-  /// The channel of a name, or if no channel has that name, the channel of that number from 1.
+  /// The channel of a name or path, or if no channel has that, the channel of that number from 1.
   std::optional<Eigen::Index> channel(const std::string& name) const;
 };
 

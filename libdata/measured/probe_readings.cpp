@@ -12,16 +12,50 @@ namespace whirl::inline data {
 
 namespace {
 
+/// What a file says of a channel that is not in the record that is read; empty: nothing.
+std::string elsewhere(const MeasuredRecord& all, const std::string& channel) {
+  const auto has_name = [&](const MeasuredChannel& c) { return c.is_called(channel); };
+  for (const ChannelLeftOut& c : all.left_out) {
+    if (c.name == channel) return fmt::format("channel \"{}\" was left out: {}", channel, c.why);
+  }
+  for (const MeasuredRecord& other : all.others) {
+    if (std::none_of(other.channels.begin(), other.channels.end(), has_name)) continue;
+    return fmt::format(
+        "channel \"{}\" has {} samples at {:.6g} per second, other channels of the probes {} at "
+        "{:.6g}: all have to be of one length and rate",
+        channel, other.samples.rows(), other.rate, all.samples.rows(), all.rate);
+  }
+  return "";
+}
+
+/// The record that has all channels of a setup by their names, else the first one.
+const MeasuredRecord& record_for(const MeasuredRecord& all, const MeasurementSetup& setup) {
+  std::vector<std::string> names;
+  for (const MeasuredProbe& p : setup.probes) names.push_back(p.channel);
+  if (setup.key_phasor) names.push_back(setup.key_phasor->channel);
+  const auto has_all = [&](const MeasuredRecord& record) {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      return std::any_of(record.channels.begin(), record.channels.end(),
+                         [&](const MeasuredChannel& c) { return c.is_called(name); });
+    });
+  };
+  if (has_all(all)) return all;
+  const auto other = std::find_if(all.others.begin(), all.others.end(), has_all);
+  return other == all.others.end() ? all : *other;
+}
+
 Eigen::Index channel_of(const MeasuredRecord& record, const std::string& channel,
                         const std::string& who) {
   const auto alike = std::count_if(record.channels.begin(), record.channels.end(),
-                                   [&](const MeasuredChannel& c) { return c.name == channel; });
+                                   [&](const MeasuredChannel& c) { return c.is_called(channel); });
   if (alike > 1) {
     throw OptionError(fmt::format(
         "{}: {} channels of the record are called \"{}\": give its number from 1; it has {}", who,
         alike, channel, record.channel_list()));
   }
   if (const auto found = record.channel(channel)) return *found;
+  const std::string why = elsewhere(record, channel);
+  if (!why.empty()) throw OptionError(fmt::format("{}: {}", who, why));
   throw OptionError(fmt::format("{}: the record has no channel \"{}\"; it has {}", who, channel,
                                 record.channel_list()));
 }
@@ -35,9 +69,17 @@ double metres_per_unit(const MeasuredChannel& channel, const MeasuredProbe& p) {
                                    channel.unit, expected));
   };
   if (channel.unit == share_of_full_scale) {
-    const double full = p.full_scale ? p.full_scale->value : 1.0;
-    const std::string unit = p.full_scale && p.gain.of != Of::number ? p.full_scale->unit : "";
-    return (p.gain.of == Of::number ? 1.0 : full) * metres_per_unit({channel.name, unit}, p);
+    if (p.gain.of == Of::number) return metres_per_unit({channel.name, ""}, p);
+    if (p.full_scale) {
+      return p.full_scale->value * metres_per_unit({channel.name, p.full_scale->unit}, p);
+    }
+    throw OptionError(fmt::format(
+        "{}: samples of channel \"{}\" are shares of full scale, as in files of sound, which do "
+        "not "
+        "say what that is: give full_scale = \"10 V\", or what the recorder was set to, beside the "
+        "gain of the probe or above all probes; only a gain of numbers, such as \"0.787 1/mm\", "
+        "needs none",
+        who, channel.name));
   }
   switch (p.gain.of) {
     case Of::voltage:
@@ -97,33 +139,43 @@ void note_size(const Vec& displacement, const std::string& probe, std::vector<st
 void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
                 const std::vector<Eigen::Index>& channels, std::vector<std::string>& notes) {
   using Of = ProbeGain::Of;
-  std::map<std::string, std::string> without_unit, without_full_scale;  // names by what they are
+  std::map<std::string, std::string> without_unit;  // names by what they are
   for (std::size_t i = 0; i < setup.probes.size(); ++i) {
     const MeasuredProbe& p = setup.probes[i];
     const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(channels[i])];
-    const bool is_share = channel.unit == share_of_full_scale && !p.full_scale;
-    if (p.gain.of == Of::number || !(is_share || channel.unit.empty())) continue;
-    const bool is_said = p.gain.of == Of::length && p.is_unit_given && !is_share;
-    if (is_said) continue;
-    std::string& names = (is_share ? without_full_scale
-                                   : without_unit)[p.gain.of == Of::voltage ? "V" : p.probe.unit];
+    if (p.gain.of == Of::number || !channel.unit.empty()) continue;
+    if (p.gain.of == Of::length && p.is_unit_given) continue;
+    std::string& names = without_unit[p.gain.of == Of::voltage ? "V" : p.probe.unit];
     names += (names.empty() ? "" : ", ") + channel.name;
   }
   for (const auto& [unit, names] : without_unit) {
     notes.push_back(fmt::format("no unit in the record for {}: taken as {}", names, unit));
   }
-  for (const auto& [unit, names] : without_full_scale) {
-    notes.push_back(
-        fmt::format("full scale of channel {} is taken as 1 {}, as the file of sound does not say "
-                    "it: full_scale = \"10 V\", or what the recorder was set to, beside the "
-                    "gain of its probe does",
-                    names, unit));
+}
+
+/// A key-phasor with its threshold in the numbers of its channel.
+KeyPhasor in_numbers_of(const MeasuredChannel& channel, KeyPhasor key) {
+  const std::string& unit = key.threshold_unit;
+  if (!key.threshold || unit.empty() || channel.unit.empty() || channel.unit == unit) return key;
+  const std::string who = fmt::format("key-phasor: channel \"{}\"", channel.name);
+  if (channel.unit != share_of_full_scale) {
+    throw OptionError(fmt::format("{} is in {}, and its threshold in {}", who, channel.unit, unit));
   }
+  if (!key.full_scale || key.full_scale->unit != unit) {
+    throw OptionError(fmt::format(
+        "{} has shares of full scale, and its threshold is in {}: give full_scale = \"10 V\", or "
+        "what the recorder was set to, in [keyphasor] or above all probes, or leave the threshold "
+        "out",
+        who, unit));
+  }
+  *key.threshold /= key.full_scale->value;
+  return key;
 }
 
 }  // namespace
 
-ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup) {
+ProbeReadings probe_readings(const MeasuredRecord& all, const MeasurementSetup& setup) {
+  const MeasuredRecord& record = record_for(all, setup);
   ProbeReadings readings{.rate = record.rate, .start = record.start, .notes = record.notes};
   readings.displacement.resize(record.samples.rows(), std::ssize(setup.probes));
   std::vector<Eigen::Index> channels;
@@ -152,14 +204,16 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
   }
   note_units(record, setup, channels, readings.notes);
   Vec pulses;
-  if (const auto& key = setup.key_phasor) {
+  std::optional<KeyPhasor> key = setup.key_phasor;
+  if (key) {
     const auto c = channel_of(record, key->channel, "key-phasor");
+    key = in_numbers_of(record.channels[static_cast<std::size_t>(c)], *key);
     pulses = without_gaps(record.samples.col(c), record, key->channel, gaps);
   }
   for (const Gaps& g : gaps) {
     readings.notes.push_back(g.text(record) + "; straight lines are in their place");
   }
-  if (const auto& key = setup.key_phasor) {
+  if (key) {
     readings.clock.emplace(pulse_times(pulses, record, *key), *key, readings.notes);
   }
   return readings;

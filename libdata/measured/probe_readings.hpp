@@ -18,12 +18,6 @@ struct ProbeGain {
   double value = 1.0;  ///< [1], [V/m], [1/m]; not zero
 };
 
-/// What a sample of 1 is in a channel of shares of full scale.
-struct FullScale {
-  double value = 1.0;  ///< above zero
-  std::string unit{};  ///< "V" or "m"
-};
-
 /// A probe with its channel.
 struct MeasuredProbe {
   Probe probe;
@@ -54,15 +48,17 @@ struct ProbeReadings {
   double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
 };
 
-/// Reads the channels of probes, and the key-phasor if there is one.
+/// Reads the channels of probes, and the key-phasor if there is one: those of the record, or if it
+/// has not all of these, of the one of its others that has.
 ///
 /// Numbers of a channel without a unit are voltages if the gain is one of voltages, else lengths in
-/// the unit of the probe. Shares of full scale are taken likewise, with a full scale of 1, where
-/// the probe does not say what full scale is. Both cases are noted. Gaps are filled, and clipped,
+/// the unit of the probe, with a note. Shares of full scale need one, unless the gain is one of
+/// numbers. Gaps are filled, and clipped,
 /// constant and equal channels are noted.
 ///
 /// @throws OptionError  for a channel that the record does not have or that is in no unit of its
-///                      gain, and as without_gaps and TurnClock
+///                      gain, for shares of a full scale that nobody says, and as without_gaps
+///                      and TurnClock
 ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup);
 
 }  // namespace whirl::inline data

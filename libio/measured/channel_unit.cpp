@@ -13,6 +13,9 @@ namespace {
 
 /// Volts of a unit of voltage.
 std::optional<double> volts(std::string_view unit) {
+  for (const std::string_view word : {"Volt", "Volts", "volt", "volts"}) {
+    if (unit == word) return 1.0;
+  }
   if (!unit.ends_with('V')) return std::nullopt;
   const std::string_view prefix = unit.substr(0, unit.size() - 1);
   if (prefix.empty()) return 1.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "libio/measured/channel_unit.hpp"
+#include "libio/measured/csv_settings.hpp"
 #include "libio/measured/raw_record.hpp"
 
 namespace whirl::inline io {
@@ -21,7 +22,7 @@ bool is_unit(const std::string& cell) {
   const std::string unit = bare_unit(cell);
   if (is_in_brackets || unit.empty() || unit == "-") return true;
   const ChannelUnit known = channel_unit(unit);
-  return known.name == "m" || known.name == "V" || parse_as("1 " + unit, "s").value.has_value();
+  return known.name == "m" || known.name == "V" || seconds_in(unit).value.has_value();
 }
 
 /// Names between blanks, "x [um] y [um]"; a line of units stays as it is.
@@ -72,27 +73,24 @@ void take_names(CsvHeader& header, const std::vector<std::string>& cells) {
 
 }  // namespace
 
-double csv_rate_in(std::string_view line) {
-  constexpr std::string_view marks = "#%!/\" \t";
-  const auto first = line.find_first_not_of(marks);
-  const auto end = line.find_first_of(":=,;\t");
-  if (first == std::string_view::npos || end == std::string_view::npos || end <= first) return 0.0;
-  const std::string name =
-      name_and_unit(trimmed(line.substr(first, end - first)), [](auto&&, auto&&) {
-        return false;
-      }).name;
-  if (!names_rate(name)) return 0.0;
-  const std::string value = trimmed(line.substr(end + 1));
-  const auto letter = std::min(value.find_first_not_of("+-.0123456789eE"), value.size());
-  const auto number = parse_as(value.substr(0, letter), "");
-  if (!number) return 0.0;
-  return value.find("kHz") != std::string::npos ? 1e3 * *number : *number;
+std::vector<CsvLine> csv_lines(std::string_view text) {
+  std::vector<CsvLine> lines;
+  int number = 0;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++number;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find_first_not_of(" \t\r") != std::string_view::npos) lines.push_back({number, line});
+  }
+  return lines;
 }
 
 CsvHeader csv_header(const std::vector<CsvLine>& lines, std::size_t count, bool may_have_one_more) {
   CsvHeader header;
   for (const CsvLine& line : lines) {
-    if (const double found = csv_rate_in(line.text); found > 0.0) header.rate = found;
+    if (is_csv_setting(line.text)) continue;
     const std::vector<std::string> cells = header_cells(line.text, count, may_have_one_more);
     if (cells.empty()) continue;
     if (!header.names.empty() && std::all_of(cells.begin(), cells.end(), is_unit)) {

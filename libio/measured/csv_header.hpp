@@ -16,21 +16,20 @@ struct CsvLine {
   std::string_view text;
 };
 
+/// Lines of a text that are not blank.
+std::vector<CsvLine> csv_lines(std::string_view text);
+
 /// In the order in which they are tried: commas may be decimal ones.
 inline constexpr std::array csv_delimiters{Delimiter::semicolon, Delimiter::tab, Delimiter::bar,
                                            Delimiter::comma, Delimiter::blanks};
 
-/// "Sample rate: 5 kHz", "fs = 5000": the rate of a line of a header [1/s]; 0: the line says none.
-double csv_rate_in(std::string_view line);
-
 struct CsvHeader {
   std::vector<std::string> names, units;  ///< of channels; "": the header says none
-  double rate = 0.0;                      ///< [1/s]; 0: the header says none
   bool has_names = false;                 ///< else all names are empty
 };
 
 /// Reads the lines above the numbers: the last line with a cell per channel names the channels, and
-/// a line below it with units alone says their units.
+/// a line below it with units alone says their units. Settings are passed over.
 ///
 /// @param count              of channels
 /// @param may_have_one_more  words behind the numbers may have a name, too

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
-#include "libio/measured/csv_header.hpp"
+#include "libio/measured/csv_samples.hpp"
+#include "libio/measured/csv_settings.hpp"
 #include "libio/measured/record_formats.hpp"
+#include "libio/measured/scope_table.hpp"
 #include "libio/results/csv_tables.hpp"
 #include "libio/text/encoding.hpp"
 
@@ -19,61 +19,6 @@ namespace whirl::inline io {
 namespace {
 
 constexpr std::string_view csv_record_head = "# measurement, written by whirl\n";
-
-/// How numbers stand in a table.
-struct CsvForm {
-  Delimiter delimiter = Delimiter::comma;
-  bool ends_with_delimiter = false;  ///< each line, or words follow
-  std::size_t columns = 0;
-};
-
-std::vector<CsvLine> csv_lines(std::string_view text) {
-  std::vector<CsvLine> lines;
-  int number = 0;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.find_first_not_of(" \t\r") != std::string_view::npos) lines.push_back({number, line});
-  }
-  return lines;
-}
-
-/// What stands for a sample that is not there.
-bool is_missing(const std::string& cell) {
-  static constexpr std::array<std::string_view, 6> marks{"", "nan", "na", "n/a", "null", "-"};
-  std::string name = cell;
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::find(marks.begin(), marks.end(), name) != marks.end();
-}
-
-/// The number of a cell, whose comma or point is that of decimals; NaN for a missing one, nothing
-/// for any other text.
-std::optional<double> sample_of(std::string cell) {
-  if (is_missing(cell)) return nan;
-  std::replace(cell.begin(), cell.end(), ',', '.');
-  const char* begin = cell.data() + (cell.front() == '+' ? 1 : 0);
-  const char* end = cell.data() + cell.size();
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return std::isfinite(value) ? value : nan;
-}
-
-/// Words, which are no sample: neither a number, nor what looks like one or stands for one.
-bool is_remark(const Cell& cell) {
-  return !begins_as_number(cell.text) && !is_missing(cell.text);
-}
-
-/// Cells of a line of a form, without what is behind a delimiter at its end.
-std::vector<Cell> csv_cells(std::string_view line, const CsvForm& form) {
-  std::vector<Cell> cells = cells_of(line, form.delimiter);
-  const bool has_end = form.ends_with_delimiter && cells.size() == form.columns + 1;
-  if (has_end && (cells.back().text.empty() || is_remark(cells.back()))) cells.pop_back();
-  return cells;
-}
 
 /// "50 000": what stands between tabs is one number, not two.
 bool has_blank_of_thousands(const std::string& cell) {
@@ -101,7 +46,7 @@ std::optional<CsvForm> number_form(std::string_view line, bool may_end_with_word
     bool has_number = false, is_right = true;
     for (const Cell& cell : cells) {
       const auto value = sample_of(cell.text);
-      is_right = is_right && value;
+      is_right = is_right && (value || is_sample(cell.text));
       has_number = has_number || (value && std::isfinite(*value));
     }
     if (is_right && has_number) return CsvForm{delimiter, has_end, cells.size()};
@@ -128,17 +73,34 @@ std::optional<CsvBody> body_of(const std::vector<CsvLine>& lines) {
   return std::nullopt;
 }
 
-/// Takes lines of words off the end, which are notes below a table.
-void drop_notes(std::vector<CsvLine>& lines, Delimiter delimiter) {
-  const auto is_note = [&](const CsvLine& line) {
-    bool has_words = false;
-    for (const Cell& cell : cells_of(line.text, delimiter)) {
-      if (!cell.text.empty() && !is_remark(cell)) return false;
-      has_words = has_words || !cell.text.empty();
-    }
-    return has_words;
-  };
-  while (!lines.empty() && is_note(lines.back())) lines.pop_back();
+/// Whether a cell names a row of statistics: "Min", "Std. Dev.:".
+bool names_statistics(const std::string& cell) {
+  static constexpr std::array<std::string_view, 32> names{
+      "min",   "minimum",     "max",        "maximum",  "mean",         "average",
+      "avg",   "rms",         "std",        "stddev",   "stdev",        "standarddeviation",
+      "sigma", "sum",         "median",     "range",    "peaktopeak",   "pktopk",
+      "pkpk",  "pp",          "peak",       "variance", "var",          "count",
+      "crest", "crestfactor", "mittelwert", "mittel",   "effektivwert", "standardabweichung",
+      "summe", "samples"};
+  std::string name = plain_name(cell);
+  while (name.ends_with(':') || name.ends_with('=')) name.pop_back();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether a line below the numbers is none of these: words, or statistics with their name before
+/// or, where the table has words behind its numbers, behind.
+bool is_below(const CsvLine& line, const CsvForm& form) {
+  const std::vector<Cell> cells = cells_of(line.text, form.delimiter);
+  const auto is_filled = [](const Cell& cell) { return !cell.text.empty(); };
+  const auto first = std::find_if(cells.begin(), cells.end(), is_filled);
+  if (first == cells.end()) return false;
+  if (names_statistics(first->text)) return true;
+  if (form.ends_with_delimiter && cells.size() > form.columns &&
+      names_statistics(cells.back().text)) {
+    return true;
+  }
+  return std::all_of(cells.begin(), cells.end(),
+                     [](const Cell& cell) { return cell.text.empty() || is_remark(cell); });
 }
 
 /// Makes what is behind the last delimiter a column, if any line has a number there.
@@ -163,7 +125,7 @@ ModelError no_numbers(const std::string& file, const std::vector<CsvLine>& lines
     const std::vector<Cell> cells = cells_of(lines.back().text, delimiter);
     if (cells.size() < 2) continue;
     for (const Cell& cell : cells) {
-      if (sample_of(cell.text)) continue;
+      if (is_sample(cell.text)) continue;
       return ModelError(
           {file, lines.back().number, cell.place}, "",
           fmt::format("{}; {} in the last line is none", message, in_quotes(cell.text)));
@@ -172,11 +134,11 @@ ModelError no_numbers(const std::string& file, const std::vector<CsvLine>& lines
   return ModelError({file}, "", message);
 }
 
-/// Whether a line names columns: none of its cells is a number, and it says no rate.
+/// Whether a line names columns: none of its cells is a number, and it is no setting.
 bool names_columns(std::string_view line, const std::vector<Cell>& cells) {
-  return csv_rate_in(line) == 0.0 && std::none_of(cells.begin(), cells.end(), [](const Cell& c) {
-           return c.text.empty() || begins_as_number(c.text);
-         });
+  return !is_csv_setting(line) && std::none_of(cells.begin(), cells.end(), [](const Cell& c) {
+    return c.text.empty() || begins_as_number(c.text);
+  });
 }
 
 /// Decimal commas between commas cannot be told from these: there are more columns than names, and
@@ -200,88 +162,37 @@ void require_other_delimiters(const std::string& file, const CsvLine& header,
                   names.size(), names.size() == 1 ? "" : "s", cells.size()));
 }
 
-/// The samples of a table, whose numbers say together what their commas and points are.
-class CsvSamples {
- public:
-  CsvSamples(RawRecord& raw, const CsvForm& form, bool has_names)
-      : raw_(raw), form_(form), marks_{form.delimiter} {
-    may_be_decimals_ =
-        form.delimiter == Delimiter::comma && !has_names && raw.channels.size() % 2 == 0;
+/// Takes start and step of an oscilloscope, whose first column may count samples.
+void take_scope_times(RawRecord& raw, const ScopeHeader& scope) {
+  if (!scope.counts_samples) {
+    raw.rate = 1.0 / scope.step;
+    raw.start = scope.start;
+    return;
   }
+  RawChannel& numbers = raw.channels.front();
+  numbers.name = "time";
+  numbers.unit = "s";
+  for (double& number : numbers.samples) number = scope.start + scope.step * number;
+}
 
-  void add(const CsvLine& line, int first_line) {
-    const std::vector<Cell> cells = csv_cells(line.text, form_);
-    const std::size_t count = raw_.channels.size();
-    if (cells.size() != count) {
-      throw ModelError({raw_.file, line.number, 1}, "",
-                       fmt::format("found {} columns, expected {} as in line {}", cells.size(),
-                                   count, first_line));
-    }
-    for (std::size_t c = 0; c < count; ++c) add(cells[c], line, c);
+/// Gives channels that have none the units of the settings, and says where lines are missing.
+void take_units(RawRecord& raw, const CsvSettings& said) {
+  std::size_t next = 0;
+  std::size_t samples = 0;
+  for (RawChannel& c : raw.channels) {
+    samples = c.samples.size();
+    const bool is_time = names_time(c.name);
+    if (is_time && c.unit.empty()) c.unit = said.time_unit;
+    if (is_time || said.units.empty()) continue;
+    if (c.unit.empty()) c.unit = said.units[std::min(next, said.units.size() - 1)];
+    ++next;
   }
-
-  /// @throws ModelError  for a comma or point that may be that of thousands or of decimals
-  void require_one_reading() {
-    for (const Doubt& doubt : {comma_, point_}) {
-      if (doubt.cell.empty()) continue;
-      const auto number = plain_number(doubt.cell, marks_);
-      if (!number) throw ModelError(doubt.where, doubt.channel, number.problem);
-    }
-    if (!point_.cell.empty() && !marks_.has_decimal_points && form_.delimiter != Delimiter::comma) {
-      raw_.notes.push_back(fmt::format(
-          "points are taken as decimal ones ({}), and no number shows that they are none of "
-          "thousands",
-          point_.cell));
-    }
-    if (may_be_decimals_) {
-      throw ModelError(
-          raw_.channels.front().where, "",
-          fmt::format("the commas may stand between {} columns of whole numbers, or be decimal "
-                      "ones of {}, and no line names the columns: write such a line, or semicolons "
-                      "between columns",
-                      raw_.channels.size(), raw_.channels.size() / 2));
-    }
-  }
-
- private:
-  /// The first number whose comma, or point, may be that of thousands or of decimals.
-  struct Doubt {
-    std::string cell, channel;
-    Where where{};
-  };
-
-  void add(const Cell& cell, const CsvLine& line, std::size_t c) {
-    const RawChannel& channel = raw_.channels[c];
-    const auto value = sample_of(cell.text);
-    if (!value) {
-      throw ModelError(
-          {raw_.file, line.number, cell.place}, channel.name,
-          fmt::format("found {}, expected a number{}; leave cells of missing samples "
-                      "empty or write nan",
-                      in_quotes(cell.text),
-                      begins_as_number(cell.text) ? " without marks of thousands" : ""));
-    }
-    raw_.channels[c].samples.push_back(*value);
-    if (const char mark = marks_.add(cell.text); mark != '\0') {
-      Doubt& first = mark == ',' ? comma_ : point_;
-      if (first.cell.empty()) {
-        first = {cell.text, channel.name, {raw_.file, line.number, cell.place}};
-      }
-    }
-    if (may_be_decimals_) {
-      const std::string_view digits =
-          std::string_view(cell.text).substr(c % 2 == 0 && cell.text.starts_with('-') ? 1 : 0);
-      may_be_decimals_ =
-          !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
-    }
-  }
-
-  RawRecord& raw_;
-  CsvForm form_;
-  NumberMarks marks_;
-  Doubt comma_, point_;
-  bool may_be_decimals_ = false;  ///< commas: nothing shows that they stand between columns
-};
+  if (!said.length || static_cast<double>(samples) >= *said.length) return;
+  raw.notes.push_back(
+      fmt::format("Record Length says {:g} samples, {} are there: is the file cut "
+                  "off?",
+                  *said.length, samples));
+}
 
 }  // namespace
 
@@ -289,27 +200,38 @@ RawRecord read_csv_record(const std::filesystem::path& path) {
   const std::string file = path.string();
   const auto text = in_utf8(record_bytes(path));
   if (!text) throw ModelError({file}, "", text.problem);
-  std::vector<CsvLine> lines = csv_lines(*text);
+  return read_csv_text(*text, file);
+}
+
+RawRecord read_csv_text(const std::string& text, const std::string& file) {
+  std::vector<CsvLine> lines = csv_lines(text);
+  if (has_scope_columns(lines)) return scope_record(lines, file);
   const auto body = body_of(lines);
   if (!body) throw no_numbers(file, lines);
   auto [form, first] = *body;
-  drop_notes(lines, form.delimiter);
+  while (lines.size() > first + 1 && is_below(lines.back(), form)) lines.pop_back();
   take_last_column(form, lines, first);
-  const CsvHeader header =
-      csv_header({lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first)}, form.columns,
-                 form.ends_with_delimiter);
+  const std::vector<CsvLine> above{lines.begin(),
+                                   lines.begin() + static_cast<std::ptrdiff_t>(first)};
+  CsvSettings said = csv_settings(above, file);
+  const auto scope = scope_header(above);
+  if (scope) form.columns = scope->names.size();
+  const CsvHeader header = scope ? CsvHeader{scope->names, scope->units, true}
+                                 : csv_header(above, form.columns, form.ends_with_delimiter);
   if (!header.has_names && first > 0 && form.delimiter == Delimiter::comma) {
     require_other_delimiters(file, lines[first - 1], csv_cells(lines[first].text, form));
   }
-  RawRecord raw{.file = file};
+  RawRecord raw{.file = file, .rate = said.rate, .start = said.start, .notes = said.notes};
+  raw.no_rate_because = said.doubt;
   for (std::size_t i = 0; i < form.columns; ++i) {
     raw.channels.push_back({header.names[i], header.units[i], {}, {file, lines[first].number, 1}});
     raw.channels[i].samples.reserve(lines.size() - first);
   }
-  if (header.rate > 0.0) raw.rate = header.rate;
   CsvSamples samples(raw, form, header.has_names);
   for (std::size_t i = first; i < lines.size(); ++i) samples.add(lines[i], lines[first].number);
-  samples.require_one_reading();
+  samples.finish();
+  if (scope) take_scope_times(raw, *scope);
+  take_units(raw, said);
   return raw;
 }
 

@@ -46,6 +46,7 @@ void add_channels(RawRecord& raw, const ResultReader& file, const FoundDataset& 
   for (std::size_t c = 0; c < (is_list ? 1 : count); ++c) {
     RawChannel& channel = raw.channels.emplace_back();
     channel.name = is_list || count == 1 ? d.name : fmt::format("{}({})", d.name, c + 1);
+    channel.path = d.path.substr(1) + channel.name.substr(d.name.size());
     channel.unit = unit;
     channel.where = {raw.file};
     channel.samples.resize(is_list ? rows : n);

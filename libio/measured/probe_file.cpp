@@ -70,7 +70,10 @@ ProbeKeys take_probe_keys(ConfigNode& item, std::size_t number, std::vector<Prob
   return keys;
 }
 
-std::optional<KeyPhasor> read_key_phasor(const ConfigNode& root, std::vector<Problem>& problems) {
+/// @param full_scale  above all probes
+std::optional<KeyPhasor> read_key_phasor(const ConfigNode& root,
+                                         const std::optional<FullScale>& full_scale,
+                                         std::vector<Problem>& problems) {
   const ConfigNode* node = root.find("keyphasor");
   if (!node) return std::nullopt;
   KeyPhasor key;
@@ -83,12 +86,15 @@ std::optional<KeyPhasor> read_key_phasor(const ConfigNode& root, std::vector<Pro
     const std::string unit = value ? value->second.name : "none";
     if (unit.empty() || unit == "V" || unit == "m") {
       key.threshold = value->first;
+      key.threshold_unit = unit;
     } else {
       table.problem("threshold", fmt::format("found {}, expected a voltage such as \"-5 V\", or a "
                                              "number as the channel has it",
                                              threshold->as_written()));
     }
   }
+  key.full_scale = full_scale_in(table);
+  if (!key.full_scale) key.full_scale = full_scale;
   table.finish();
   return key;
 }
@@ -111,13 +117,15 @@ MeasurementSetup parse_probe_file(const std::string& text, const std::string& na
   ConfigNode root = parse_toml(text, name);
   std::vector<Problem> problems;
   MeasurementSetup setup;
+  std::optional<FullScale> full_scale;
   {
     TableReader top(&root, "", problems);
     top.node("probe");
     top.node("keyphasor");
+    full_scale = full_scale_in(top);
     top.finish();
   }
-  setup.key_phasor = read_key_phasor(root, problems);
+  setup.key_phasor = read_key_phasor(root, full_scale, problems);
   ConfigNode* list = root.find("probe");
   if (!list) {
     problems.push_back({root.where, "probe", "missing, expected one [[probe]] or more"});
@@ -137,7 +145,8 @@ MeasurementSetup parse_probe_file(const std::string& text, const std::string& na
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const std::string channel = keys[i].channel.empty() ? probes[i].name : keys[i].channel;
     setup.probes.push_back({probes[i], channel, keys[i].gain, *parse_as("1 " + probes[i].unit, "m"),
-                            list->items[i].find("unit") != nullptr, keys[i].full_scale});
+                            list->items[i].find("unit") != nullptr,
+                            keys[i].full_scale ? keys[i].full_scale : full_scale});
   }
   return setup;
 }

@@ -10,7 +10,8 @@
 namespace whirl::inline io {
 
 /// Reads a file of probes: [[probe]] as models have it, with `channel` (its name or number; left
-/// out, the name of the probe), `gain` and `full_scale`, and [keyphasor].
+/// out, the name of the probe), `gain` and `full_scale`, and [keyphasor]. A `full_scale` above all
+/// tables is that of each that has none.
 ///
 /// @param model  whose stations the probes are at
 /// @throws ModelError  with every problem found and its place in the file

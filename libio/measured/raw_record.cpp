@@ -9,6 +9,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libio/measured/channel_unit.hpp"
+#include "libio/measured/record_parts.hpp"
 #include "libio/text/delimited.hpp"
 #include "libio/text/vendor_units.hpp"
 
@@ -53,14 +54,23 @@ std::vector<double> step_numbers(const RawChannel& time) {
   return numbers;
 }
 
+/// Checks that a rate that a file says beside its times is that of these: one of both may be in
+/// another unit.
+void require_same_rate(const RawRecord& raw, const RawChannel& time, double said, double steps) {
+  constexpr double most_apart = 0.01;  // beside what the digits of two times leave open
+  const double within = std::max({most_apart, raw.rate_within, 2.0 * even_to / steps});
+  if (std::abs(*raw.rate / said - 1.0) <= within) return;
+  throw ModelError(time.where, time.name,
+                   fmt::format("the times say {:.6g} samples per second, another line of the file "
+                               "says {:.6g}: one of them is wrong, or in another unit",
+                               said, *raw.rate));
+}
+
 /// Takes rate and start from a channel of times; returns the step number of each.
 std::vector<double> take_times(RawRecord& raw, const RawChannel& time) {
-  double factor = 1.0;
-  if (!time.unit.empty()) {
-    const auto unit = unit_in_table(time.unit, "s");
-    if (!unit) throw ModelError(time.where, time.name, unit.problem);
-    factor = *parse_as("1 " + *unit, "s");
-  }
+  const auto seconds = seconds_in(time.unit);
+  if (!seconds) throw ModelError(time.where, time.name, seconds.problem);
+  const double factor = *seconds;
   const std::vector<double>& t = time.samples;
   if (t.size() < 2) throw ModelError(time.where, time.name, "expected two times or more");
   const std::vector<double> numbers = step_numbers(time);
@@ -73,8 +83,11 @@ std::vector<double> take_times(RawRecord& raw, const RawChannel& time) {
         fmt::format("sample {} is at {}, expected {:.9g}: steps must be even, to {:g} % of {:.6g}",
                     i + 1, t[i], expected, 100.0 * even_to, step));
   }
-  // a rate that the file says has more digits than its times
-  if (!raw.rate) raw.rate = 1.0 / (factor * step);
+  const double said = 1.0 / (factor * step);
+  if (raw.rate) require_same_rate(raw, time, said, numbers.back());
+  // a rate that the file says has more digits than its times, unless it is rounded
+  if (!raw.rate || raw.rate_within > same_rate) raw.rate = said;
+  raw.rate_within = 0.0;
   raw.start = factor * t.front();
   return numbers;
 }
@@ -96,12 +109,15 @@ Eigen::Map<const Vec> samples_of(const RawChannel& channel) {
 /// The channel of times: by its name, else the first one in a unit of time, in whatever language,
 /// which always ascends where the rate is known.
 std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, bool is_rate_known) {
-  const auto named = std::find_if(channels.begin(), channels.end(),
-                                  [](const RawChannel& c) { return names_time(c.name); });
+  // T may be a temperature beside t
+  const auto is_named = [](const RawChannel& c) { return !c.clock && names_time(c.name); };
+  auto named = std::find_if(channels.begin(), channels.end(),
+                            [&](const RawChannel& c) { return is_named(c) && ascends(c.samples); });
+  if (named == channels.end()) named = std::find_if(channels.begin(), channels.end(), is_named);
   if (named != channels.end()) return named;
   std::map<std::string, bool> is_time;  // each unit is read once: there may be many channels
   return std::find_if(channels.begin(), channels.end(), [&](const RawChannel& c) {
-    if (c.unit.empty()) return false;
+    if (c.unit.empty() || c.clock) return false;
     const auto [known, is_new] = is_time.try_emplace(c.unit, false);
     if (is_new) known->second = static_cast<bool>(unit_in_table(c.unit, "s"));
     return known->second && (!is_rate_known || always_ascends(samples_of(c)));
@@ -113,6 +129,7 @@ std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, boo
 void name_ramp(RawRecord& raw, std::optional<double> rate) {
   constexpr double longest_step = 0.1;  // nobody records vibrations with longer ones [s]
   RawChannel& first = raw.channels.front();
+  if (!first.unit.empty()) return;
   for (const RawChannel& c : raw.channels) {
     if (!c.name.empty()) return;
   }
@@ -147,66 +164,11 @@ void number_channels(std::vector<RawChannel>& channels) {
   }
 }
 
-/// Leaves out vectors that are no channels of the record, such as a calibration: those that are not
-/// as long as its times, or where there are none as most of what has the samples of a record. Two
-/// lengths that are as frequent stay, and are told.
-/// @param samples  of the channel of times; 0: there is none
-void keep_one_length(RawRecord& raw, std::size_t samples) {
-  constexpr std::size_t fewest = 16;  // of a measurement
-  std::map<std::size_t, int> counts;
-  for (const RawChannel& c : raw.channels) {
-    const std::size_t n = c.samples.size();
-    if (samples == 0 ? n >= fewest : n == samples) ++counts[n];
-  }
-  if (counts.empty()) return;
-  const auto most =
-      std::max_element(counts.begin(), counts.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  const auto is_as_frequent = [&](const auto& other) { return other.second == most->second; };
-  if (std::count_if(counts.begin(), counts.end(), is_as_frequent) > 1) return;
-  std::string others;
-  std::erase_if(raw.channels, [&, n = most->first](const RawChannel& c) {
-    if (c.samples.size() == n) return false;
-    others += fmt::format("{}{} ({})", others.empty() ? "" : ", ", c.name, c.samples.size());
-    return true;
-  });
-  if (!others.empty()) {
-    raw.notes.push_back(fmt::format("not as long as the {} samples of the record, and left out: {}",
-                                    most->first, others));
-  }
-}
-
-bool is_one_of(const std::string& name, std::initializer_list<std::string_view> known) {
-  return std::find(known.begin(), known.end(), plain_name(name)) != known.end();
-}
-
-}  // namespace
-
-bool names_time(const std::string& name) {
-  return is_one_of(name, {"time", "t", "times", "zeit", "temps", "tiempo", "tempo"});
-}
-
-bool names_rate(const std::string& name) {
-  return is_one_of(name, {"rate", "fs", "samplerate", "samplingrate", "samplingfrequency",
-                          "samplefrequency", "samplespersecond"});
-}
-
-MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
-  if (!raw.has_own_times && !raw.channels.empty()) name_ramp(raw, rate);
-  const auto time = time_in(raw.channels, raw.rate || rate);
-  if (time != raw.channels.end() && !raw.has_own_times) {
-    const RawChannel times = std::move(*time);
-    raw.channels.erase(time);
-    const std::vector<double> numbers = take_times(raw, times);
-    for (RawChannel& channel : raw.channels) spread(channel.samples, numbers);
-    keep_one_length(raw, static_cast<std::size_t>(numbers.back()) + 1);
-  } else if (!raw.has_own_times) {
-    keep_one_length(raw, 0);
-  }
-  number_channels(raw.channels);
+/// Settles the rate between what the file and --rate say.
+void take_rate(RawRecord& raw, std::optional<double> rate) {
   const Where where{raw.file};
   if (raw.rate && rate) {
-    if (!(std::abs(*raw.rate / *rate - 1.0) <= same_rate)) {
+    if (!(std::abs(*raw.rate / *rate - 1.0) <= std::max(same_rate, raw.rate_within))) {
       throw ModelError(
           where, "",
           fmt::format("says {:.6g} samples per second, --rate says {:.6g}: leave --rate out, "
@@ -220,15 +182,33 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
   if (!raw.rate) {
     throw ModelError(
         where, "",
-        "does not say how many samples a second has: expected a column \"time [s]\" or "
-        "a sample rate; --rate says it, too");
+        "does not say how many samples a second has: " +
+            (raw.no_rate_because.empty() ? "expected a column \"time [s]\" or a sample rate"
+                                         : raw.no_rate_because) +
+            "; --rate says it, too");
   }
   if (!(*raw.rate > 0.0) || !std::isfinite(*raw.rate)) {
     throw ModelError(where, "", fmt::format("says a sample rate of {} 1/s", *raw.rate));
   }
-  MeasuredRecord record{.rate = *raw.rate, .start = raw.start, .notes = std::move(raw.notes)};
+}
+
+/// Times that count from long ago, as from 1970, have few digits left for samples.
+void count_from_first(RawRecord& raw) {
+  constexpr double long_ago = 1e8;  // three years [s]
+  if (!(std::abs(raw.start) > long_ago)) return;
+  raw.notes.push_back(
+      fmt::format("times begin at {:.9g} s: they are counted from the first sample", raw.start));
+  raw.start = 0.0;
+}
+
+/// Channels in m and V as one matrix.
+MeasuredRecord as_record(RawRecord raw) {
+  MeasuredRecord record{.rate = *raw.rate,
+                        .start = raw.start,
+                        .notes = std::move(raw.notes),
+                        .left_out = std::move(raw.left_out)};
   const std::size_t n = raw.channels.front().samples.size();
-  if (n == 0) throw ModelError(where, "", "has no samples");
+  if (n == 0) throw ModelError({raw.file}, "", "has no samples");
   record.samples.resize(static_cast<Eigen::Index>(n), std::ssize(raw.channels));
   for (std::size_t i = 0; i < raw.channels.size(); ++i) {
     const RawChannel& channel = raw.channels[i];
@@ -238,9 +218,76 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
                                    n, raw.channels.front().name));
     }
     const ChannelUnit unit = channel_unit(channel.unit);
-    record.channels.push_back({channel.name, unit.name});
+    record.channels.push_back({channel.name, unit.name, channel.path});
     record.samples.col(static_cast<Eigen::Index>(i)) =
         unit.factor * Eigen::Map<const Vec>(channel.samples.data(), static_cast<Eigen::Index>(n));
+  }
+  return record;
+}
+
+MeasuredRecord finished_part(RawRecord raw, std::optional<double> rate) {
+  if (!raw.has_own_times) {
+    const auto time = time_in(raw.channels, raw.rate || rate);
+    if (time != raw.channels.end()) {
+      const RawChannel times = std::move(*time);
+      raw.channels.erase(time);
+      const std::vector<double> numbers = take_times(raw, times);
+      for (RawChannel& channel : raw.channels) spread(channel.samples, numbers);
+    }
+  }
+  number_channels(raw.channels);
+  take_rate(raw, rate);
+  count_from_first(raw);
+  return as_record(std::move(raw));
+}
+
+bool is_one_of(const std::string& name, std::initializer_list<std::string_view> known) {
+  return std::find(known.begin(), known.end(), plain_name(name)) != known.end();
+}
+
+}  // namespace
+
+bool ascends(const std::vector<double>& samples) {
+  return std::adjacent_find(samples.begin(), samples.end(),
+                            [](double a, double b) { return !(a < b); }) == samples.end();
+}
+
+Parsed<double> seconds_in(const std::string& unit) {
+  if (unit.empty()) return 1.0;
+  const auto known = unit_in_table(unit, "s");
+  if (!known) return Parsed<double>::failed(known.problem);
+  return parse_as("1 " + *known, "s");
+}
+
+bool names_time(const std::string& name) {
+  return is_one_of(name, {"time", "t", "times", "zeit", "temps", "tiempo", "tempo"});
+}
+
+bool names_rate(const std::string& name) {
+  return is_one_of(name, {"rate", "fs", "samplerate", "samplingrate", "samplingfrequency",
+                          "samplefrequency", "samplespersecond"});
+}
+
+MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
+  if (raw.has_own_times) return finished_part(std::move(raw), rate);
+  if (!raw.channels.empty()) name_ramp(raw, rate);
+  std::optional<RawChannel> times;
+  if (const auto time = time_in(raw.channels, raw.rate || rate); time != raw.channels.end()) {
+    times = std::move(*time);
+    raw.channels.erase(time);
+  }
+  std::vector<RawRecord> parts = parts_of(std::move(raw), std::move(times));
+  MeasuredRecord record = finished_part(std::move(parts.front()), rate);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    std::vector<ChannelLeftOut> channels;
+    for (const RawChannel& c : parts[i].channels) channels.push_back({c.name, ""});
+    try {
+      record.others.push_back(finished_part(std::move(parts[i]), rate));
+    } catch (const ModelError& error) {
+      for (ChannelLeftOut& c : channels) {
+        record.left_out.push_back({c.name, error.problems().front().message});
+      }
+    }
   }
   return record;
 }

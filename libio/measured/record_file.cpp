@@ -18,16 +18,18 @@ namespace fs = std::filesystem;
 struct RecordFormat {
   std::string_view endings;  ///< each between blanks
   RawRecord (*read)(const fs::path&);
-  void (*write)(const fs::path&, const MeasuredRecord&, Replaces);
+  void (*write)(const fs::path&, const MeasuredRecord&, Replaces);  ///< nothing: is read only
 };
 
-constexpr std::array<RecordFormat, 6> record_formats{{
+constexpr std::array<RecordFormat, 8> record_formats{{
     {" .csv .txt .tsv .dat .asc ", read_csv_record, write_csv_record},
     {" .wav ", read_wav_record, write_wav_record},
     {" .mat ", read_matlab_record, write_matlab_record},
     {" .uff .unv ", read_universal_record, write_universal_record},
     {" .ufb ", read_universal_record, write_binary_universal_record},
     {" .h5 .hdf5 ", read_hdf5_record, write_hdf5_record},
+    {" .lvm ", read_lvm_record, nullptr},
+    {" .tdms ", read_tdms_record, nullptr},
 }};
 
 const RecordFormat& format_of(const fs::path& path) {
@@ -39,7 +41,15 @@ const RecordFormat& format_of(const fs::path& path) {
   }
   throw ModelError({path.string()}, "",
                    "expected a record of a measurement, whose ending says its format: .csv .txt "
-                   ".tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5");
+                   ".tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5, .lvm, .tdms");
+}
+
+const RecordFormat& written_format_of(const fs::path& path) {
+  const RecordFormat& format = format_of(path);
+  if (format.write) return format;
+  throw ModelError({path.string()}, "",
+                   "records with this ending can be read, but not written; these are written: .csv "
+                   ".txt .tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5");
 }
 
 }  // namespace
@@ -57,11 +67,11 @@ MeasuredRecord read_record(const fs::path& path, std::optional<double> rate) {
 }
 
 void write_record(const fs::path& path, const MeasuredRecord& record, Replaces replaces) {
-  format_of(path).write(path, record, replaces);
+  written_format_of(path).write(path, record, replaces);
 }
 
 void require_record_ending(const fs::path& path) {
-  format_of(path);
+  written_format_of(path);
 }
 
 }  // namespace whirl::inline io

@@ -10,6 +10,11 @@
 namespace whirl::inline io {
 
 RawRecord read_csv_record(const std::filesystem::path& path);
+/// The same of a text.
+/// @param file  for messages
+RawRecord read_csv_text(const std::string& text, const std::string& file);
+RawRecord read_lvm_record(const std::filesystem::path& path);
+RawRecord read_tdms_record(const std::filesystem::path& path);
 RawRecord read_wav_record(const std::filesystem::path& path);
 RawRecord read_matlab_record(const std::filesystem::path& path);
 /// @source [UniversalFile58]

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -102,6 +103,19 @@ std::vector<MeasuredChannel> wav_channels(std::string_view list) {
   return channels;
 }
 
+/// Real samples may be above full scale: then they may be no shares of it.
+void note_above_full_scale(RawRecord& raw) {
+  constexpr double most = 1.0 + 1e-6;  // rounded
+  double largest = 0.0;
+  for (const RawChannel& c : raw.channels) {
+    for (const double sample : c.samples) largest = std::max(largest, std::abs(sample));
+  }
+  if (!(largest > most)) return;
+  raw.notes.push_back(fmt::format("samples are up to {:.3g} times full scale: if they are volts "
+                                  "already, full_scale = \"1 V\" says so",
+                                  largest));
+}
+
 }  // namespace
 
 RawRecord read_wav_record(const std::filesystem::path& path) {
@@ -147,6 +161,7 @@ RawRecord read_wav_record(const std::filesystem::path& path) {
         }
       }
       raw.rate = form->rate;
+      if (said.size() != form->channels) note_above_full_scale(raw);
       return raw;
     }
     at += 8 + size + size % 2;

@@ -18,7 +18,8 @@ namespace whirl::inline cli {
 struct RecordVerbOptions {
   Option<std::string> measured = file_option(
       "measured", "FILE",
-      "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .ufb, .h5");
+      "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .ufb, .h5, "
+      ".lvm, .tdms");
   Option<std::string> probes =
       file_option("probes", "FILE.toml",
                   "which channels of it are which probes; left out: those of the model, by their "

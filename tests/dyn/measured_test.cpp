@@ -260,8 +260,9 @@ TEST(ProbeReadings, TakesChannelsByGainAndUnit) {
   EXPECT_THROW(probe_readings(record, setup), OptionError) << "a voltage without a gain";
 }
 
-// Full scale is the recorder's: 1 was taken as 1 V, whatever the recorder's range, without a word.
-TEST(ProbeReadings, TakeFullScaleFromTheProbeOrSayThatNobodyToldIt) {
+// Full scale is the recorder's: a recorder of 20 V gave displacements 20 times too small, with a
+// note that 1 V was taken.
+TEST(ProbeReadings, AskForTheFullScaleOfShares) {
   MeasuredRecord record{.rate = 100.0};
   record.channels = {{"1", share_of_full_scale}};
   record.samples = 0.5 * Mat::Ones(20, 1);
@@ -269,28 +270,48 @@ TEST(ProbeReadings, TakeFullScaleFromTheProbeOrSayThatNobodyToldIt) {
   const auto reading = [&](const MeasuredProbe& probe) {
     return probe_readings(record, {.probes = {probe}});
   };
-  const auto told = [&](const MeasuredProbe& probe) {
-    const ProbeReadings found = reading(probe);
-    return std::count_if(found.notes.begin(), found.notes.end(), [](const std::string& note) {
-      return note.find("full_scale = \"10 V\"") != std::string::npos;
-    });
-  };
   MeasuredProbe probe{{"px", test::node(1)}, "1", {ProbeGain::Of::voltage, -8000.0}};
-  EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), -0.5 / 8000.0);
-  EXPECT_EQ(told(probe), 1);
+  try {
+    reading(probe);
+    ADD_FAILURE() << "nobody said what full scale is";
+  } catch (const OptionError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("probe \"px\": samples of channel \"1\" are shares of "
+                        "full scale"),
+              std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("full_scale = \"10 V\""), std::string::npos);
+  }
   probe.full_scale = FullScale{10.0, "V"};
   EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), -5.0 / 8000.0);
-  EXPECT_EQ(told(probe), 0);
+  EXPECT_TRUE(reading(probe).notes.empty());
   probe.gain = {};
   EXPECT_THROW(reading(probe), OptionError) << "volts without a gain of them";
   probe.full_scale = FullScale{2e-3, "m"};
   EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), 1e-3);
   probe.full_scale.reset();
   probe.is_unit_given = true;
-  EXPECT_EQ(told(probe), 1) << "a unit is not yet what full scale is";
+  EXPECT_THROW(reading(probe), OptionError) << "a unit is not yet what full scale is";
   probe.gain = {ProbeGain::Of::number, 1000.0};
   EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), 0.5e-3);
-  EXPECT_EQ(told(probe), 0);
+}
+
+// A threshold in volts is none of shares: -10 V of 20 V are -0.5.
+TEST(ProbeReadings, TakeThresholdsOfKeyPhasorsByTheirFullScale) {
+  MeasuredRecord record{.rate = 100.0};
+  record.channels = {{"x", "m"}, {"key", share_of_full_scale}};
+  record.samples = 1e-6 * Mat::Random(200, 2);
+  for (Eigen::Index j = 0; j < 200; ++j) record.samples(j, 1) = j % 20 < 2 ? -0.7 : -0.3;
+  MeasurementSetup setup{{{{"px", test::node(1)}, "x"}},
+                         KeyPhasor{.channel = "key", .threshold = -10.0}};
+  setup.key_phasor->slope = PulseEdge::falling;
+  setup.key_phasor->threshold_unit = "V";
+  EXPECT_THROW(probe_readings(record, setup), OptionError);
+  setup.key_phasor->full_scale = FullScale{20.0, "V"};
+  const ProbeReadings readings = probe_readings(record, setup);
+  EXPECT_NEAR(readings.clock->mean_speed(), 2.0 * std::numbers::pi * 5.0, 1e-9);
+  record.channels[1].unit = "m";
+  EXPECT_THROW(probe_readings(record, setup), OptionError);
 }
 
 // A gain in volts does not say that the numbers of the file are volts and not millivolts.

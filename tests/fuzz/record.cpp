@@ -1,9 +1,9 @@
 // Records of measurements and files of probes: a record comes of a file, or one problem with its
 // place, and what its channels mean is found or refused.
 //
-// The first letter of an input says what it is: c a table, u a universal file, w a sound file, p a
-// file of probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of
-// foreign.cpp.)
+// The first letter of an input says what it is: c a table, l a file of LabVIEW in text, t a TDMS
+// file, u a universal file, w a sound file, p a file of probes of two disks. (HDF5 and MATLAB,
+// which others' libraries read, are those of foreign.cpp.)
 
 #include <cmath>
 #include <cstddef>
@@ -35,7 +35,7 @@ void use(const MeasuredRecord& record) {
     const std::string& unit = record.channels[i].unit;
     ProbeGain gain;
     if (unit == "V") gain = {ProbeGain::Of::voltage, 7870.0};
-    if (unit.empty()) gain = {ProbeGain::Of::number, 1e6};
+    if (unit.empty() || unit == share_of_full_scale) gain = {ProbeGain::Of::number, 1e6};
     setup.probes.push_back({{.name = "probe"}, std::to_string(i + 1), gain});
   }
   try {
@@ -84,6 +84,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   switch (data[0]) {
     case 'c':
       read(scratch.folder / "record.csv", text);
+      break;
+    case 'l':
+      read(scratch.folder / "record.lvm", text);
+      break;
+    case 't':
+      read(scratch.folder / "record.tdms", text);
       break;
     case 'u':
       read(scratch.folder / "record.uff", text);

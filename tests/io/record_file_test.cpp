@@ -180,7 +180,7 @@ TEST_F(RecordFile, SaysWhatIsWrongInATable) {
   expect_problem("a.csv", "t,x\n0,1\n1,2\n1,3\n2,4\n", "sample 3 is at 1, the one before at 1");
   expect_problem("a.csv", "t,x\n0,1\n1,2\n2.3,2\n3,4\n", "sample 3 is at 2.3, expected 2");
   expect_problem("a.csv", "t,x,y\n0,0,1,5,2,5\n0,1,1,5,2,5\n", "a.csv:1:1: names 3 columns");
-  expect_problem("a.csv", "t,x\n12:00:01,1\n12:00:02,1\n", "\"12:00:02\" in the last line");
+  expect_problem("a.csv", "t,x\n12:00:01 h,1\n12:00:02 h,1\n", "\"12:00:02 h\" in the last line");
   expect_problem("a.csv", "t,x\n0,1\n1,2\n2,3,4\n",
                  "a.csv:4:1: found 3 columns, expected 2 as in line 2");
   expect_problem("a.csv", "t,x\n0,1\n1,2\n2,three\n", "a.csv:4:3: x: found \"three\"");

@@ -184,7 +184,7 @@ def try_files(b):
     rows = b.rows()
     rows[-5][DE_Y] = "OVLD"
     b.try_record(rows, f'error: r.csv:{len(rows) - 3}:')
-    b.try_record(b.set(T, lambda r: f"12:00:{r[T]:09.6f}"), "error: in the last line is none")
+    b.try_record(b.set(T, lambda r: f"12:00:{r[T]:09.6f}"), "times of the day count from the first sample, at 12:00:0")
     whole = ",".join(NAMES) + "\n" + "".join(",".join(map(repr, row)) + "\n" for row in b.good)
     b.try_record(whole[:-60], "error: columns, expected 6 as in line 2")
     b.try_record(whole + whole, 'error: time: found "time [s]", expected a number')

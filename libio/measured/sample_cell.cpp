@@ -1,0 +1,85 @@
+#include "libio/measured/sample_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "libbase/numerics/constants.hpp"
+#include "libio/text/delimited.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// Letters and signs of a cell, in lower case: "Over Range" and "OVER_RANGE" are the same.
+std::string word_of(std::string_view cell) {
+  std::string word;
+  for (const char c : cell) {
+    if (c == ' ' || c == '_' || c == '\t') continue;
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return word;
+}
+
+template <std::size_t N>
+bool is_one_of_words(std::string_view cell, const std::array<std::string_view, N>& words) {
+  constexpr std::size_t longest = 24;  // with blanks
+  if (cell.size() > longest) return false;
+  return std::find(words.begin(), words.end(), word_of(cell)) != words.end();
+}
+
+}  // namespace
+
+bool is_missing(std::string_view cell) {
+  static constexpr std::array<std::string_view, 8> marks{"",    "nan",  "-nan", "na",
+                                                         "n/a", "null", "-",    "--"};
+  return is_one_of_words(cell, marks);
+}
+
+bool is_no_reading(std::string_view cell) {
+  static constexpr std::array<std::string_view, 25> marks{
+      "overrange", "over-range", "overflow", "overload",   "over",        "ovr",       "ovrflw",
+      "ovl",       "ol",         "o.l.",     "underrange", "under-range", "underflow", "+over",
+      "-over",     "#n/a",       "#na",      "#nan",       "#num!",       "#div/0!",   "#value!",
+      "inf",       "+inf",       "-inf",     "infinity"};
+  return is_one_of_words(cell, marks);
+}
+
+std::optional<double> sample_of(std::string_view cell) {
+  if (is_missing(cell) || is_no_reading(cell)) return nan;
+  std::string text(cell);
+  std::replace(text.begin(), text.end(), ',', '.');
+  const char* begin = text.data() + (text.front() == '+' ? 1 : 0);
+  const char* end = text.data() + text.size();
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return std::isfinite(value) ? value : nan;
+}
+
+void NoReadings::add(std::string_view cell, std::size_t channel, const Where& where) {
+  if (found_.size() <= channel) found_.resize(channel + 1);
+  Found& found = found_[channel];
+  if (found.count++ > 0) return;
+  found.cell = std::string(cell);
+  found.where = where;
+}
+
+void NoReadings::tell(RawRecord& raw) const {
+  for (std::size_t c = 0; c < found_.size(); ++c) {
+    if (found_[c].count == 0) continue;
+    const std::string& name = raw.channels[c].name;
+    const std::string which = name.empty() ? std::to_string(c + 1) : in_quotes(name);
+    raw.notes.push_back(fmt::format(
+        "channel {}: {} say {} instead of a number, the first one in line {}: these samples are "
+        "taken as missing",
+        which, found_[c].count == 1 ? "1 cell" : fmt::format("{} cells", found_[c].count),
+        in_quotes(found_[c].cell), found_[c].where.line));
+  }
+}
+
+}  // namespace whirl::inline io
