@@ -26,6 +26,12 @@ struct FileTable {
   std::string text;
 };
 
+/// A station that was given by position and by node number: both must be the same place.
+struct DoubleStation {
+  Station position;
+  int node = 0;
+};
+
 /// The tree of a model file, and what has been read of it so far.
 class ModelReading {
  public:
@@ -42,11 +48,6 @@ class ModelReading {
   std::vector<Problem> doubts;         ///< what is right in tables of files and seldom meant
   std::vector<FileTable> file_tables;  ///< a model that is stored has them in it
 
-  /// A station that was given by position and by node number: both must be the same place.
-  struct DoubleStation {
-    Station position;
-    int node = 0;
-  };
   std::vector<DoubleStation> double_stations;
   /// A contact whose radius is that of the shaft at its station.
   struct MissingRadius {

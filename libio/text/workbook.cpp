@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <zip.h>
+#include <minizip/unzip.h>
 
 #include <algorithm>
 #include <cctype>
@@ -30,46 +30,83 @@ struct WrongWorkbook {
   std::string problem;
 };
 
+/// Bytes that minizip reads as a file.
+struct BytesRead {
+  const std::string* bytes = nullptr;
+  std::size_t at = 0;
+};
+
+BytesRead& bytes_of(void* stream) {
+  return *static_cast<BytesRead*>(stream);
+}
+
+zlib_filefunc64_def reads_of(BytesRead& from) {
+  zlib_filefunc64_def reads{};
+  reads.opaque = &from;
+  reads.zopen64_file = [](void* opaque, const void*, int) { return opaque; };
+  reads.zread_file = [](void*, void* stream, void* to, uLong size) -> uLong {
+    BytesRead& read = bytes_of(stream);
+    const std::size_t count = std::min<std::size_t>(size, read.bytes->size() - read.at);
+    std::copy_n(read.bytes->data() + read.at, count, static_cast<char*>(to));
+    read.at += count;
+    return static_cast<uLong>(count);
+  };
+  reads.ztell64_file = [](void*, void* stream) -> ZPOS64_T { return bytes_of(stream).at; };
+  reads.zseek64_file = [](void*, void* stream, ZPOS64_T offset, int origin) -> long {
+    BytesRead& read = bytes_of(stream);
+    const std::size_t base = origin == ZLIB_FILEFUNC_SEEK_CUR   ? read.at
+                             : origin == ZLIB_FILEFUNC_SEEK_END ? read.bytes->size()
+                                                                : 0;
+    if (offset > read.bytes->size() - base) return -1;
+    read.at = base + static_cast<std::size_t>(offset);
+    return 0;
+  };
+  reads.zclose_file = [](void*, void*) { return 0; };
+  reads.zerror_file = [](void*, void*) { return 0; };
+  return reads;
+}
+
 /// An archive in memory.
 class Archive {
  public:
-  explicit Archive(const std::string& bytes) {
-    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr);
-    if (!source) throw WrongWorkbook{"not enough memory"};
-    zip_error_t error;
-    zip_error_init(&error);
-    archive_.reset(zip_open_from_source(source, ZIP_RDONLY, &error));
-    const std::string why = zip_error_strerror(&error);
-    zip_error_fini(&error);
-    if (!archive_) {
-      zip_source_free(source);
-      throw WrongWorkbook{"it is no whole workbook: " + why};
-    }
+  explicit Archive(const std::string& bytes) : from_{&bytes} {
+    zlib_filefunc64_def reads = reads_of(from_);
+    archive_.reset(unzOpen2_64("workbook", &reads));
+    if (!archive_) throw WrongWorkbook{"it is no whole workbook"};
   }
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
 
   /// A part, unpacked; nothing: there is none.
   std::optional<std::string> part(const std::string& name) const {
-    zip_stat_t stat;
-    zip_stat_init(&stat);
-    if (zip_stat(archive_.get(), name.c_str(), 0, &stat) != 0) return std::nullopt;
-    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(
-        zip_fopen(archive_.get(), name.c_str(), 0), &zip_fclose);
-    if (!file) throw WrongWorkbook{fmt::format("cannot unpack its part {}", in_quotes(name))};
+    constexpr int as_written = 1;  // capitals count
+    unzFile archive = archive_.get();
+    if (unzLocateFile(archive, name.c_str(), as_written) != UNZ_OK) return std::nullopt;
+    const auto damaged = [&] {
+      return WrongWorkbook{fmt::format("its part {} is damaged", in_quotes(name))};
+    };
+    if (unzOpenCurrentFile(archive) != UNZ_OK) throw damaged();
     std::string text;
     std::string block(std::size_t{1} << 16u, '\0');
-    while (true) {
-      const zip_int64_t got = zip_fread(file.get(), block.data(), block.size());
-      if (got < 0) throw WrongWorkbook{fmt::format("its part {} is damaged", in_quotes(name))};
-      if (got == 0) return text;
-      text.append(block, 0, static_cast<std::size_t>(got));
-      if (text.size() > most_part_bytes) {
-        throw WrongWorkbook{fmt::format("its part {} is larger than 64 MB", in_quotes(name))};
-      }
+    int got = 1;
+    while (got > 0 && text.size() <= most_part_bytes) {
+      got = unzReadCurrentFile(archive, block.data(), static_cast<unsigned>(block.size()));
+      if (got > 0) text.append(block, 0, static_cast<std::size_t>(got));
     }
+    const bool is_whole = unzCloseCurrentFile(archive) == UNZ_OK;  // its checksum, read to the end
+    if (text.size() > most_part_bytes) {
+      throw WrongWorkbook{fmt::format("its part {} is larger than 64 MB", in_quotes(name))};
+    }
+    if (got < 0 || !is_whole) throw damaged();
+    return text;
   }
 
  private:
-  std::unique_ptr<zip_t, void (*)(zip_t*)> archive_{nullptr, &zip_discard};
+  struct Close {
+    void operator()(void* archive) const { unzClose(archive); }
+  };
+  BytesRead from_;
+  std::unique_ptr<void, Close> archive_;
 };
 
 /// The name of an element without its namespace.

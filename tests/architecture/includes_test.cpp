@@ -147,7 +147,7 @@ TEST(Architecture, EachLibraryHasOneHome) {
       {"H5", "libio/results/hdf5/"},
       {"zlib", "libio/results/hdf5/"},
       {"matio", "libio/results/matlab_variables"},
-      {"zip.h", "libio/text/workbook"},
+      {"minizip", "libio/text/workbook"},
       {"pugixml", "libio/text/workbook"},
       {"vtk", "libio/export/vtk/"},
       {"CLI/", "libverbs/command/command_line.cpp"},
