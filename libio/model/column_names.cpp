@@ -19,7 +19,8 @@ struct Words {
   std::initializer_list<std::string_view> words;
 };
 
-// English, then German, French, Portuguese, Italian and Spanish.
+// English, then German, French, Portuguese, Italian and Spanish. "mass" and "weight" are no names
+// of an added mass: some tables say with them what a segment weighs itself.
 constexpr std::string_view length_names[] = {
     "l",     "len",    "lg",       "seglength",   "segmentlength", "elementlength", "axiallength",
     "lange", "laenge", "longueur", "comprimento", "lunghezza",     "longitud"};
@@ -89,19 +90,10 @@ const Words others[] = {
     {"position",
      {"z", "at", "pos", "axialposition", "location", "axiallocation", "distance", "lage",
       "abscisse", "posicao"}},
-    {"mass", {"addedmass",    "addedweight",
-              "addedwt",      "addwt",
-              "addedwgt",     "addwgt",
-              "addedw",       "weight",
-              "wt",           "wgt",
-              "extmass",      "extweight",
-              "externalmass", "externalweight",
-              "diskmass",     "discmass",
-              "lumpedmass",   "pointmass",
-              "zusatzmasse",  "masse",
-              "gewicht",      "masseajoutee",
-              "massa",        "massaadicional",
-              "peso",         "masa"}},
+    {"added_mass",
+     {"addedweight", "addedwt", "addwt", "addedwgt", "addwgt", "addedw", "extmass", "extweight",
+      "externalmass", "externalweight", "diskmass", "discmass", "lumpedmass", "pointmass",
+      "zusatzmasse", "masseajoutee", "massaadicional"}},
     {"polar_inertia",
      {"ip", "jp", "addedip", "addip", "extip", "ipadded", "polar", "polarmoment",
       "polarmomentofinertia", "polarmassmoment", "polarmassmomentofinertia",

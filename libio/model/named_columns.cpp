@@ -116,7 +116,7 @@ void report_unknown(const std::string& name, int place, const std::vector<Column
     c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   const auto near = name.size() < least_letters ? std::nullopt : nearest(written, names);
-  if (near) {
+  if (near && near->front() == written.front()) {  // "weight" is no mistake for "length"
     report(place, name, fmt::format("unknown column, did you mean \"{}\"?", *near));
   } else if (doubt) {
     doubt(

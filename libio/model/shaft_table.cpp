@@ -40,7 +40,7 @@ const std::vector<ColumnKind>& shaft_columns() {
                        "such as position [mm]"},
       {.name = "position", .unit = "m"},
       {.name = "name", .is_text = true},
-      {.name = "mass", .unit = "kg", .range = nonnegative},
+      {.name = "added_mass", .unit = "kg", .range = nonnegative},
       {.name = "polar_inertia", .unit = "kg.m^2", .range = nonnegative},
       {.name = "diametral_inertia", .unit = "kg.m^2", .range = nonnegative},
       {.name = "unbalance", .unit = "kg.m", .range = nonnegative},
@@ -133,7 +133,7 @@ void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
 /// What a row says of its left end.
 StationCells station_cells(const DelimitedRow& from) {
   StationCells cells{.station = from.text("station"), .name = from.text("name")};
-  const auto mass = from.number("mass"), polar = from.number("polar_inertia"),
+  const auto mass = from.number("added_mass"), polar = from.number("polar_inertia"),
              diametral = from.number("diametral_inertia");
   cells.mass = mass.value_or(0.0);
   cells.polar_inertia = polar.value_or(0.0);
@@ -252,6 +252,13 @@ std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::stri
   std::vector<ShaftRow> rows;
   if (table.header > 0 && problems.size() == before) check_columns(table, file, problems);
   if (problems.size() > before) return rows;
+  const bool has_inertias = table.has("polar_inertia") || table.has("diametral_inertia");
+  if (doubts && has_inertias && !table.has("added_mass")) {
+    doubts->push_back({{file, table.header, 1},
+                       "polar_inertia",
+                       "moments of inertia without a column added_mass: they are taken as those of "
+                       "disks at the stations, beside what the segments have themselves"});
+  }
   if (table.rows.empty()) {
     problems.push_back(
         {{file}, "", "the table has no rows; expected a line of column names and one per segment"});

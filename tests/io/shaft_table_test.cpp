@@ -153,14 +153,15 @@ TEST(ShaftTable, StationsHaveMassesAndNamesOfParts) {
             "shaft.csv:3:1: length: found 0, expected a length (m) above zero\n");
 }
 
-// Columns that nobody knows are told and left; what is nearly a name is a mistake.
+// Columns that nobody knows are told and left, as a weight, which may be that of the segment
+// itself; what is nearly a name is a mistake.
 TEST(ShaftTable, ColumnsThatAreNotKnownAreTold) {
   std::vector<Problem> wrong, told;
-  const auto t = parse_shaft_table("length,od,Surface,No\n1,2,rough 3,1\n", "s.csv", wrong, &told);
+  const auto t = parse_shaft_table("length,od,Weight,No\n1,2,3,1\n", "s.csv", wrong, &told);
   EXPECT_EQ(t.size(), 1u);
   EXPECT_TRUE(wrong.empty());
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(describe(told[0]).find("s.csv:1:11: Surface: this column is not known and not read"),
+  EXPECT_EQ(describe(told[0]).find("s.csv:1:11: Weight: this column is not known and not read"),
             0u);
 }
 
@@ -366,7 +367,7 @@ TEST_F(ShaftTableFile, ProblemsOfTableAndModelAreToldTogether) {
 TEST_F(ShaftTableFile, StationsAreThoseOfTablesWithPlaces) {
   const std::string bearing = "stiffness = \"10 MN/m\"\n";
   std::ofstream(folder / "stations.csv")
-      << "length [mm],od [mm],mass [kg],polar inertia [kg.m2],It [kg.m2],unbalance [g.mm],"
+      << "length [mm],od [mm],added mass [kg],polar inertia [kg.m2],It [kg.m2],unbalance [g.mm],"
          "unbalance angle [deg],bearing\n"
          "100,40,,,,,,DE\n200,40,3,0.02,0.011,50,90,\n,,,,,,,ghost/2\n";
   const std::string by_table = std::string(head) +
