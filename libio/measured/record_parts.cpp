@@ -11,6 +11,8 @@ namespace whirl::inline io {
 
 namespace {
 
+constexpr std::size_t most_parts = 64;  ///< that are read; each names the channels of all others
+
 /// What channels have that go together: number of the clock (-1: the record's), and samples.
 using PartKey = std::pair<int, std::size_t>;
 
@@ -118,7 +120,8 @@ std::vector<RawRecord> parts_of(RawRecord raw, std::optional<RawChannel> times) 
     return {std::move(raw)};
   }
   if (counts.empty()) ++counts[key_of(raw.channels.front())];
-  const std::vector<PartKey> keys = in_order(counts, time_samples);
+  std::vector<PartKey> keys = in_order(counts, time_samples);
+  if (keys.size() > most_parts) keys.resize(most_parts);
   std::map<PartKey, std::size_t> numbers;
   std::vector<RawRecord> parts;
   for (const PartKey& key : keys) {

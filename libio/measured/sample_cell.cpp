@@ -50,15 +50,21 @@ bool is_no_reading(std::string_view cell) {
 }
 
 std::optional<double> sample_of(std::string_view cell) {
-  if (is_missing(cell) || is_no_reading(cell)) return nan;
-  std::string text(cell);
-  std::replace(text.begin(), text.end(), ',', '.');
-  const char* begin = text.data() + (text.front() == '+' ? 1 : 0);
-  const char* end = text.data() + text.size();
+  std::string_view text = cell;
+  std::string with_point;
+  if (text.find(',') != std::string_view::npos) {
+    with_point = text;
+    std::replace(with_point.begin(), with_point.end(), ',', '.');
+    text = with_point;
+  }
+  if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return std::isfinite(value) ? value : nan;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && stop == text.data() + text.size()) {
+    return std::isfinite(value) ? value : nan;
+  }
+  if (is_missing(cell) || is_no_reading(cell)) return nan;
+  return std::nullopt;
 }
 
 void NoReadings::add(std::string_view cell, std::size_t channel, const Where& where) {

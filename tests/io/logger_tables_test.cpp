@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 
+#include "libbase/error.hpp"
 #include "libio/measured/day_time.hpp"
 #include "libio/measured/record_file.hpp"
 #include "tests/io/result_folder.hpp"

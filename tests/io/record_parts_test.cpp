@@ -78,6 +78,16 @@ TEST(RecordParts, KeepsChannelsOfOtherClocksApart) {
   }
 }
 
+// Every part names the others: a file of very many does not take the square of their number.
+TEST(RecordParts, ReadsSomePartsOfAFileOfVeryMany) {
+  RawRecord raw{.file = "a.mat", .rate = 100.0};
+  for (std::size_t n = 16; n < 216; ++n) raw.channels.push_back(channel("X", n));
+  const MeasuredRecord record = finished(raw, {});
+  EXPECT_EQ(record.samples.rows(), 215) << "the longest";
+  EXPECT_EQ(record.others.size(), 63u);
+  EXPECT_NE(record.notes.at(0).find("and 187 more"), std::string::npos) << record.notes[0];
+}
+
 // Times that no channel goes with are those of something else.
 TEST(RecordParts, RefusesTimesWithoutSamples) {
   RawRecord raw{.file = "a.mat"};
