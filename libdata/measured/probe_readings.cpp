@@ -75,8 +75,8 @@ double metres_per_unit(const MeasuredChannel& channel, const MeasuredProbe& p) {
     }
     throw OptionError(fmt::format(
         "{}: samples of channel \"{}\" are shares of full scale, as in files of sound, which do "
-        "not "
-        "say what that is: give full_scale = \"10 V\", or what the recorder was set to, beside the "
+        "not say what that is: give full_scale = \"10 V\", or what the recorder was set to, beside "
+        "the "
         "gain of the probe or above all probes; only a gain of numbers, such as \"0.787 1/mm\", "
         "needs none",
         who, channel.name));

@@ -52,9 +52,8 @@ struct ProbeReadings {
 /// has not all of these, of the one of its others that has.
 ///
 /// Numbers of a channel without a unit are voltages if the gain is one of voltages, else lengths in
-/// the unit of the probe, with a note. Shares of full scale need one, unless the gain is one of
-/// numbers. Gaps are filled, and clipped,
-/// constant and equal channels are noted.
+/// the unit of the probe, with a note. Shares of full scale need a full scale, unless the gain is
+/// one of numbers. Gaps are filled, and clipped, constant and equal channels are noted.
 ///
 /// @throws OptionError  for a channel that the record does not have or that is in no unit of its
 ///                      gain, for shares of a full scale that nobody says, and as without_gaps

@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "libio/measured/raw_record.hpp"
 #include "libio/measured/sample_cell.hpp"
+#include "libio/text/encoding.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
-constexpr double longest_step = 0.1;   ///< nobody records vibrations with longer ones [s]
 constexpr double same_setting = 0.01;  ///< to which a rate and a step agree
 
 enum class Setting { none, rate, step, start, time_unit, units, length };
@@ -151,10 +150,8 @@ std::optional<double> per_second_in(const std::string& unit) {
                                                           "persecond",
                                                           "pts/s",
                                                           "samplespersecond"};
-  std::string plain;
-  for (const char c : unit) {
-    if (c != ' ') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string plain = lower_case(unit);
+  std::erase(plain, ' ');
   const auto is_base = [](std::string_view text) {
     return std::find(bases.begin(), bases.end(), text) != bases.end();
   };
@@ -216,8 +213,8 @@ class SettingsReader {
                       digits, digits.substr(0, comma), digits.substr(comma + 1),
                       digits.substr(0, comma), digits.substr(comma + 1)));
     }
-    const auto value = sample_of(digits);
-    if (!value || !std::isfinite(*value)) {
+    const auto value = finite_sample_of(digits);
+    if (!value) {
       throw wrong(
           fmt::format("found \"{}\", expected a number without marks of thousands", digits));
     }

@@ -56,8 +56,8 @@ struct LvmNumbers {
 
   /// A number of a header, whose point or comma is that of decimals.
   double number(std::string_view text, int line, const char* tag, std::string_view channel) const {
-    const auto value = sample_of(with_points(text, decimal));
-    if (value && std::isfinite(*value)) return *value;
+    const auto value = finite_sample_of(with_points(text, decimal));
+    if (value) return *value;
     throw ModelError(
         Where{file, line, 1}, std::string(channel),
         fmt::format("{} is \"{}\" in the header of this segment, expected a number", tag, text));

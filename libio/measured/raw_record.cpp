@@ -127,7 +127,6 @@ std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, boo
 /// Gives a first column that always ascends, in a file that names none, the name that it must have:
 /// of times in seconds, unless that cannot be.
 void name_ramp(RawRecord& raw, std::optional<double> rate) {
-  constexpr double longest_step = 0.1;  // nobody records vibrations with longer ones [s]
   RawChannel& first = raw.channels.front();
   if (!first.unit.empty()) return;
   for (const RawChannel& c : raw.channels) {

@@ -68,6 +68,8 @@ void travel(Bytes& bytes, Is<RawRecord> auto& record) {
   bytes(file, channels, rate, start, has_own_times, notes, within, because, clocks, left_out);
 }
 
+/// Nobody records vibrations with longer steps [s].
+constexpr double longest_step = 0.1;
 /// Share of a step that times may be off.
 constexpr double even_to = 0.1;
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "libio/measured/record_formats.hpp"
+#include "libio/text/encoding.hpp"
 #include "libio/text/file_bytes.hpp"
 
 namespace whirl::inline io {
@@ -33,8 +33,7 @@ constexpr std::array<RecordFormat, 8> record_formats{{
 }};
 
 const RecordFormat& format_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_case(path.extension().string());
   for (const RecordFormat& format : record_formats) {
     if (ending.empty()) break;
     if (format.endings.find(" " + ending + " ") != std::string_view::npos) return format;

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
 #include "libio/text/delimited.hpp"
+#include "libio/text/encoding.hpp"
 
 namespace whirl::inline io {
 
@@ -17,11 +17,8 @@ namespace {
 
 /// Letters and signs of a cell, in lower case: "Over Range" and "OVER_RANGE" are the same.
 std::string word_of(std::string_view cell) {
-  std::string word;
-  for (const char c : cell) {
-    if (c == ' ' || c == '_' || c == '\t') continue;
-    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string word = lower_case(cell);
+  std::erase_if(word, [](char c) { return c == ' ' || c == '_' || c == '\t'; });
   return word;
 }
 
@@ -65,6 +62,11 @@ std::optional<double> sample_of(std::string_view cell) {
   }
   if (is_missing(cell) || is_no_reading(cell)) return nan;
   return std::nullopt;
+}
+
+std::optional<double> finite_sample_of(std::string_view cell) {
+  const auto value = sample_of(cell);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 void NoReadings::add(std::string_view cell, std::size_t channel, const Where& where) {

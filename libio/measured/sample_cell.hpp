@@ -21,6 +21,9 @@ bool is_no_reading(std::string_view cell);
 /// is_no_reading say so, nothing for any other text.
 std::optional<double> sample_of(std::string_view cell);
 
+/// Likewise, of a number that is finite; nothing for any other text.
+std::optional<double> finite_sample_of(std::string_view cell);
+
 /// Counts cells that are no reading.
 class NoReadings {
  public:

@@ -15,18 +15,13 @@ namespace {
 
 constexpr std::size_t time_column = 3, value_column = 4;
 
-std::optional<double> finite_number(const std::string& cell) {
-  const auto value = sample_of(cell);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
-
 /// The number of "t0 = -5e-4".
 std::optional<double> named_number(const std::string& cell, std::string_view name) {
   const auto mark = cell.find('=');
   if (mark == std::string::npos || plain_name(cell.substr(0, mark)) != name) return std::nullopt;
   std::string text = trimmed(std::string_view(cell).substr(mark + 1));
   if (text.ends_with('s')) text = trimmed(std::string_view(text).substr(0, text.size() - 1));
-  return finite_number(text);
+  return finite_sample_of(text);
 }
 
 std::vector<std::string> texts_of(std::string_view line) {
@@ -52,7 +47,7 @@ std::optional<ScopeHeader> header_of_lines(const std::vector<std::string>& names
                                            const std::vector<std::string>& values) {
   for (std::size_t k = 2; k + 1 < std::min(names.size(), values.size()); ++k) {
     if (plain_name(names[k]) != "start" || plain_name(names[k + 1]) != "increment") continue;
-    const auto start = finite_number(values[k]), step = finite_number(values[k + 1]);
+    const auto start = finite_sample_of(values[k]), step = finite_sample_of(values[k + 1]);
     if (!start || !step || !(*step > 0.0)) continue;
     const auto end = static_cast<std::ptrdiff_t>(k);
     ScopeHeader header{{names.begin(), names.begin() + end},
@@ -72,7 +67,7 @@ bool has_scope_columns(const std::vector<CsvLine>& lines) {
   if (lines.empty()) return false;
   const std::vector<std::string> cells = texts_of(lines.front().text);
   return cells.size() > value_column && plain_name(cells[0]) == "recordlength" &&
-         finite_number(cells[time_column]) && finite_number(cells[value_column]);
+         finite_sample_of(cells[time_column]) && finite_sample_of(cells[value_column]);
 }
 
 RawRecord scope_record(const std::vector<CsvLine>& lines, const std::string& file) {

@@ -400,6 +400,17 @@ class TdmsReader {
 
 }  // namespace
 
+std::optional<double> number_in(const TdmsProperties& properties, const std::string& name) {
+  const auto found = properties.find(name);
+  if (found == properties.end() || found->second.kind != TdmsValue::Kind::number) return {};
+  return found->second.number;
+}
+
+std::string text_in(const TdmsProperties& properties, const std::string& name) {
+  const auto found = properties.find(name);
+  return found == properties.end() ? "" : found->second.text;
+}
+
 TdmsFile tdms_file(std::string_view bytes, const std::string& file) {
   return TdmsReader(bytes, file).read();
 }

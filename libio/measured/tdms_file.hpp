@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,13 +19,20 @@ struct TdmsValue {
   std::string text{};
 };
 
+using TdmsProperties = std::map<std::string, TdmsValue>;
+
+/// The number of a property; nothing: there is none of that name.
+std::optional<double> number_in(const TdmsProperties& properties, const std::string& name);
+/// The text of a property; empty: there is none of that name.
+std::string text_in(const TdmsProperties& properties, const std::string& name);
+
 /// The file, a group, or a channel.
 struct TdmsObject {
-  std::vector<std::string> names;                 ///< none: the file; its group; its channel
-  std::map<std::string, TdmsValue> properties{};  ///< of times, units and scales; of others nothing
-  std::vector<double> samples{};  ///< as they stand in the file; of times since the first one [s]
-  bool is_time = false;           ///< samples are times
-  std::string no_samples{};       ///< why a channel with data has no samples, in words
+  std::vector<std::string> names;  ///< none: the file; its group; its channel
+  TdmsProperties properties{};     ///< of times, units and scales; of others nothing
+  std::vector<double> samples{};   ///< as they stand in the file; of times since the first one [s]
+  bool is_time = false;            ///< samples are times
+  std::string no_samples{};        ///< why a channel with data has no samples, in words
 };
 
 struct TdmsFile {

@@ -17,16 +17,7 @@ namespace whirl::inline io {
 
 namespace {
 
-std::optional<double> number_of(const TdmsObject& object, const std::string& name) {
-  const auto found = object.properties.find(name);
-  if (found == object.properties.end() || found->second.kind != TdmsValue::Kind::number) return {};
-  return found->second.number;
-}
-
-std::string text_of(const TdmsObject& object, const std::string& name) {
-  const auto found = object.properties.find(name);
-  return found == object.properties.end() ? "" : found->second.text;
-}
+constexpr int most_named = 12;  ///< channels that a note names
 
 /// Makes a record of the objects of a file.
 class TdmsRecord {
@@ -93,8 +84,8 @@ class TdmsRecord {
   }
 
   static Parsed<std::string> unit_of(const TdmsObject& object) {
-    const std::string unit = text_of(object, "unit_string");
-    const std::string other = text_of(object, "NI_UnitDescription");
+    const std::string unit = text_in(object.properties, "unit_string");
+    const std::string other = text_in(object.properties, "NI_UnitDescription");
     if (unit.empty()) return other;
     const ChannelUnit known = channel_unit(unit), known_other = channel_unit(other);
     const auto is_scaled = [](const ChannelUnit& u) { return u.name == "m" || u.name == "V"; };
@@ -108,9 +99,9 @@ class TdmsRecord {
 
   /// Number of the clock of a channel; -1: it has none.
   Parsed<int> clock_of(const TdmsObject& object) {
-    const auto step = number_of(object, "wf_increment");
+    const auto step = number_in(object.properties, "wf_increment");
     if (!step) return -1;
-    const std::string unit = text_of(object, "wf_xunit_string");
+    const std::string unit = text_in(object.properties, "wf_xunit_string");
     const auto seconds = seconds_in(unit);
     if (!seconds) {
       return Parsed<int>::failed(
@@ -124,8 +115,8 @@ class TdmsRecord {
           "wf_increment is 1, which LabVIEW writes where it does not know the rate, too";
       return -1;
     }
-    const double start =
-        *seconds * number_of(object, "wf_start_offset").value_or(0.0) + since_first(object);
+    const double start = *seconds * number_in(object.properties, "wf_start_offset").value_or(0.0) +
+                         since_first(object);
     if (!std::isfinite(start)) return Parsed<int>::failed("its wf_start_offset is no number");
     const double rate = 1.0 / (*seconds * *step), within = even_to / rate;
     const auto known = clocks_.lower_bound({rate, start - within});
@@ -171,7 +162,6 @@ class TdmsRecord {
     if (alike_.at(object.names[1]) == 1) raw_.left_out.push_back({object.names[1], why});
     raw_.left_out.push_back({path, why});
     auto& [count, names] = reasons_[why];
-    constexpr int most_named = 12;
     if (++count > most_named) return;
     names += (names.empty() ? "" : ", ") + path;
   }
@@ -179,7 +169,6 @@ class TdmsRecord {
   void tell_left_out() {
     for (const auto& [why, channels] : reasons_) {
       const auto& [count, names] = channels;
-      constexpr int most_named = 12;
       raw_.notes.push_back(fmt::format(
           "left out: {}{}: {}", names,
           count > most_named ? fmt::format(" and {} more", count - most_named) : "", why));

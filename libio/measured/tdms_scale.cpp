@@ -3,30 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
+
+#include "libio/text/encoding.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
-using Properties = std::map<std::string, TdmsValue>;
+using Properties = TdmsProperties;
 using Result = Parsed<TdmsScale>;
 
 constexpr std::size_t most_scales = 64;
 constexpr double raw_samples = 4294967295.0;  ///< number of the input that is no scale
-
-std::optional<double> number_in(const Properties& properties, const std::string& name) {
-  const auto found = properties.find(name);
-  if (found == properties.end() || found->second.kind != TdmsValue::Kind::number) return {};
-  return found->second.number;
-}
-
-std::string text_in(const Properties& properties, const std::string& name) {
-  const auto found = properties.find(name);
-  return found == properties.end() ? "" : found->second.text;
-}
 
 /// How many scales there are.
 std::size_t count_of(const Properties& properties) {
@@ -75,13 +65,12 @@ double TdmsScale::operator()(double sample) const {
   return sample;
 }
 
-bool has_tdms_scale(const std::map<std::string, TdmsValue>& properties) {
+bool has_tdms_scale(const TdmsProperties& properties) {
   return count_of(properties) > 0;
 }
 
-Parsed<TdmsScale> tdms_scale(const std::map<std::string, TdmsValue>& properties) {
-  std::string status = text_in(properties, "NI_Scaling_Status");
-  for (char& c : status) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+Parsed<TdmsScale> tdms_scale(const TdmsProperties& properties) {
+  const std::string status = lower_case(text_in(properties, "NI_Scaling_Status"));
   TdmsScale scale;
   if (status == "scaled") return scale;
   if (!status.empty() && status != "unscaled") {

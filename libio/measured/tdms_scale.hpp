@@ -20,9 +20,9 @@ struct TdmsScale {
 /// The scale of a channel by its properties NI_Scale, linear ones and polynomials; none where
 /// samples are scaled already.
 /// @return  or what is wrong, in words: another kind of scale, or one that is not whole
-Parsed<TdmsScale> tdms_scale(const std::map<std::string, TdmsValue>& properties);
+Parsed<TdmsScale> tdms_scale(const TdmsProperties& properties);
 
 /// Whether properties have a scale.
-bool has_tdms_scale(const std::map<std::string, TdmsValue>& properties);
+bool has_tdms_scale(const TdmsProperties& properties);
 
 }  // namespace whirl::inline io

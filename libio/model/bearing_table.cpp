@@ -132,6 +132,29 @@ void check_order(const OpenTable& open, std::vector<Problem>& problems) {
   }
 }
 
+/// Reports the first thing that is missing in a table: a kind of column, or rows.
+void check_whole(const DelimitedTable& table, const std::string& file,
+                 std::vector<Problem>& problems) {
+  const bool has_coefficients =
+      std::any_of(entries().begin(), entries().end(),
+                  [&](const Entry& entry) { return table.has(entry.column); });
+  if (table.header > 0 && !table.has("speed") && !table.has("whirl")) {
+    problems.push_back(
+        {{file, table.header, 1},
+         "",
+         "a column of speeds or of whirl frequencies is missing: name it speed or whirl"});
+  } else if (table.header > 0 && !has_coefficients) {
+    problems.push_back({{file, table.header, 1},
+                        "",
+                        "a column of coefficients is missing, such as kxx [N/m] or cxx [N.s/m]"});
+  } else if (table.rows.empty()) {
+    problems.push_back({{file},
+                        "",
+                        "the table has no rows; expected a line of column names and one line per "
+                        "speed or whirl frequency"});
+  }
+}
+
 /// Reports what may be forgotten: one of kxx and kyy, of kxy and kyx, ...
 void doubt_columns(const DelimitedTable& table, const std::string& file,
                    std::vector<Problem>& doubts) {
@@ -159,25 +182,7 @@ CoefficientTable parse_bearing_table(const std::string& text, const std::string&
   OpenTable open;
   const std::size_t others = problems.size();  // of other tables
   const DelimitedTable table = parse_delimited(text, file, coefficient_columns(), problems, doubts);
-  if (table.header > 0 && problems.size() == others && !table.has("speed") && !table.has("whirl")) {
-    problems.push_back(
-        {{file, table.header, 1},
-         "",
-         "a column of speeds or of whirl frequencies is missing: name it speed or whirl"});
-  }
-  if (table.header > 0 && problems.size() == others &&
-      std::none_of(entries().begin(), entries().end(),
-                   [&](const Entry& entry) { return table.has(entry.column); })) {
-    problems.push_back({{file, table.header, 1},
-                        "",
-                        "a column of coefficients is missing, such as kxx [N/m] or cxx [N.s/m]"});
-  }
-  if (table.rows.empty() && problems.size() == others) {
-    problems.push_back({{file},
-                        "",
-                        "the table has no rows; expected a line of column names and one line per "
-                        "speed or whirl frequency"});
-  }
+  if (problems.size() == others) check_whole(table, file, problems);
   for (const DelimitedRow& row : table.rows) add_row(open, table, row, file);
   sort_rows(open);
   check_order(open, problems);

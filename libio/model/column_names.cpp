@@ -1,11 +1,7 @@
 #include "libio/model/column_names.hpp"
 
 #include <algorithm>
-#include <initializer_list>
 #include <map>
-#include <utility>
-
-#include "libio/text/delimited.hpp"
 
 namespace whirl::inline io {
 
@@ -13,119 +9,69 @@ namespace {
 
 using Names = std::map<std::string, std::vector<ColumnName>, std::less<>>;
 
-/// A column, and its names as plain_name has them.
+/// A column, and its names as plain_name has them, between blanks: English, then German, French,
+/// Portuguese, Italian and Spanish.
 struct Words {
-  std::string_view column;
-  std::initializer_list<std::string_view> words;
+  std::string_view column, words;
 };
 
-// English, then German, French, Portuguese, Italian and Spanish. "mass" and "weight" are no names
-// of an added mass: some tables say with them what a segment weighs itself.
-constexpr std::string_view length_names[] = {
-    "l",     "len",    "lg",       "seglength",   "segmentlength", "elementlength", "axiallength",
-    "lange", "laenge", "longueur", "comprimento", "lunghezza",     "longitud"};
-constexpr std::string_view outer_names[] = {"od",
-                                            "outer",
-                                            "outerdia",
-                                            "odia",
-                                            "outerdiam",
-                                            "outerdiameter",
-                                            "outsidedia",
-                                            "outsidediameter",
-                                            "outerd",
-                                            "dout",
-                                            "douter",
-                                            "da",
-                                            "daussen",
-                                            "aussen",
-                                            "aussendurchmesser",
-                                            "diamext",
-                                            "dext",
-                                            "diametreext",
-                                            "diametreexterieur",
-                                            "diametroext",
-                                            "diamexterno",
-                                            "diametroexterno",
-                                            "diametroesterno",
-                                            "diametroexterior"};
-constexpr std::string_view inner_names[] = {"id",
-                                            "inner",
-                                            "innerdia",
-                                            "idia",
-                                            "innerdiam",
-                                            "innerdiameter",
-                                            "insidedia",
-                                            "insidediameter",
-                                            "innerd",
-                                            "din",
-                                            "dinner",
-                                            "bore",
-                                            "di",
-                                            "dinnen",
-                                            "innen",
-                                            "innendurchmesser",
-                                            "bohrung",
-                                            "diamint",
-                                            "dint",
-                                            "diametreint",
-                                            "diametreinterieur",
-                                            "alesage",
-                                            "diametroint",
-                                            "diaminterno",
-                                            "diametrointerno",
-                                            "diametrointerior"};
+/// Of both ends, and of the left and the right one: "od", "odleft", "leftod", "odl".
+constexpr Words diameters[] = {
+    {"outer",
+     "od outer outerdia odia outerdiam outerdiameter outsidedia outsidediameter outerd dout "
+     "douter da daussen aussen aussendurchmesser diamext dext diametreext diametreexterieur "
+     "diametroext diamexterno diametroexterno diametroesterno diametroexterior"},
+    {"inner",
+     "id inner innerdia idia innerdiam innerdiameter insidedia insidediameter innerd din "
+     "dinner bore di dinnen innen innendurchmesser bohrung diamint dint diametreint "
+     "diametreinterieur alesage diametroint diaminterno diametrointerno diametrointerior"}};
 
-const Words others[] = {
-    {"material", {"mat", "matl", "werkstoff", "materiau", "materiale"}},
-    {"layer", {"layerno", "schicht", "couche", "camada"}},
-    {"rayleigh_mass", {"alpha"}},
-    {"rayleigh_stiffness", {"beta"}},
-    {"station", {"sta",       "stano",   "stationno", "stationnumber",
-                 "station#",  "sta#",    "stn",       "no",
-                 "nr",        "#",       "n",         "segment",
-                 "segmentno", "section", "sectionno", "row",
-                 "elem",      "elemno",  "element",   "elementno",
-                 "elem#",     "node",    "nodeno",    "knoten",
-                 "noeud",     "no.",     "estacao",   "elemento"}},
-    {"position",
-     {"z", "at", "pos", "axialposition", "location", "axiallocation", "distance", "lage",
-      "abscisse", "posicao"}},
+constexpr Words others[] = {
+    {"length",
+     "l len lg seglength segmentlength elementlength axiallength lange laenge longueur "
+     "comprimento lunghezza longitud"},
+    {"material", "mat matl werkstoff materiau materiale"},
+    {"layer", "layerno schicht couche camada"},
+    {"rayleigh_mass", "alpha"},
+    {"rayleigh_stiffness", "beta"},
+    {"station",
+     "sta stano stationno stationnumber station# sta# stn no nr # n segment segmentno "
+     "section sectionno row elem elemno element elementno elem# node nodeno knoten noeud "
+     "estacao elemento"},
+    {"position", "z at pos axialposition location axiallocation distance lage abscisse posicao"},
+    // "mass" and "weight" are no names of it: some tables say with them what a segment weighs
+    // itself
     {"added_mass",
-     {"addedweight", "addedwt", "addwt", "addedwgt", "addwgt", "addedw", "extmass", "extweight",
-      "externalmass", "externalweight", "diskmass", "discmass", "lumpedmass", "pointmass",
-      "zusatzmasse", "masseajoutee", "massaadicional"}},
+     "addedweight addedwt addwt addedwgt addwgt addedw extmass extweight externalmass "
+     "externalweight diskmass discmass lumpedmass pointmass zusatzmasse masseajoutee "
+     "massaadicional"},
     {"polar_inertia",
-     {"ip", "jp", "addedip", "addip", "extip", "ipadded", "polar", "polarmoment",
-      "polarmomentofinertia", "polarmassmoment", "polarmassmomentofinertia",
-      "polaresmassentragheitsmoment", "inertiepolaire", "inerciapolar", "inerziapolare"}},
+     "ip jp addedip addip extip ipadded polar polarmoment polarmomentofinertia "
+     "polarmassmoment polarmassmomentofinertia polaresmassentragheitsmoment inertiepolaire "
+     "inerciapolar inerziapolare"},
     {"diametral_inertia",
-     {"it", "jt", "jd", "addedit", "addit", "extit", "itadded", "transverse", "transverseinertia",
-      "transversemoment", "transversemomentofinertia", "transversemassmoment", "diametralmoment",
-      "diametralmomentofinertia", "aquatorialestragheitsmoment", "inertiediametrale",
-      "inerciadiametral", "inerciatransversal"}},
+     "it jt jd addedit addit extit itadded transverse transverseinertia transversemoment "
+     "transversemomentofinertia transversemassmoment diametralmoment "
+     "diametralmomentofinertia aquatorialestragheitsmoment inertiediametrale "
+     "inerciadiametral inerciatransversal"},
     {"unbalance",
-     {"unbal", "imbalance", "unbalancemoment", "residualunbalance", "unwucht", "balourd",
-      "desbalanceamento", "squilibrio", "desbalance"}},
-    {"unbalance_angle",
-     {"unbalangle", "unbalancephase", "unbalphase", "imbalanceangle", "unwuchtwinkel"}},
-    {"bearing",
-     {"brg", "bearings", "bearingname", "lager", "palier", "mancal", "cuscinetto", "cojinete"}},
-    {"seal", {"seals", "sealname", "dichtung", "selo", "tenuta", "sello"}},
-    {"probe", {"probes", "probename", "sensor", "sensors", "messstelle", "capteur", "sonda"}},
-    {"name",
-     {"component", "part", "description", "label", "bezeichnung", "benennung", "designation",
-      "descricao"}},
-    {"deflection", {"bow"}},
-    {"angle", {"phase"}},
+     "unbal imbalance unbalancemoment residualunbalance unwucht balourd desbalanceamento "
+     "squilibrio desbalance"},
+    {"unbalance_angle", "unbalangle unbalancephase unbalphase imbalanceangle unwuchtwinkel"},
+    {"bearing", "brg bearings bearingname lager palier mancal cuscinetto cojinete"},
+    {"seal", "seals sealname dichtung selo tenuta sello"},
+    {"probe", "probes probename sensor sensors messstelle capteur sonda"},
+    {"name", "component part description label bezeichnung benennung designation descricao"},
+    {"deflection", "bow"},
+    {"angle", "phase"},
     {"speed",
-     {"rotorspeed", "shaftspeed", "spinspeed", "spin", "runningspeed", "operatingspeed",
-      "rotationalspeed", "rotationspeed", "rotatingspeed", "drehzahl", "vitesse",
-      "vitessederotation", "regime", "velocidade", "rotacao", "velocita", "velocidad"}},
+     "rotorspeed shaftspeed spinspeed spin runningspeed operatingspeed rotationalspeed "
+     "rotationspeed rotatingspeed drehzahl vitesse vitessederotation regime velocidade "
+     "rotacao velocita velocidad"},
     {"whirl",
-     {"freq", "frequency", "whirlfreq", "whirlfrequency", "whirlspeed", "whirlingspeed",
-      "whirlingfrequency", "excitation", "excfreq", "excitationfreq", "excitationfrequency",
-      "precessionfrequency", "vibrationfrequency", "frequenz", "wirbelfrequenz", "frequence",
-      "frequencia", "frequenza", "frecuencia"}}};
+     "freq frequency whirlfreq whirlfrequency whirlspeed whirlingspeed whirlingfrequency "
+     "excitation excfreq excitationfreq excitationfrequency precessionfrequency "
+     "vibrationfrequency frequenz wirbelfrequenz frequence frequencia frequenza frecuencia"}};
 
 /// Names that say the unit of their numbers.
 struct WordWithUnit {
@@ -134,18 +80,26 @@ struct WordWithUnit {
 constexpr WordWithUnit with_units[] = {
     {"rpm", "speed", "rpm"}, {"n", "speed", "rpm"}, {"hz", "whirl", "Hz"}, {"cpm", "whirl", "rpm"}};
 
-/// Diameters of both ends, and of the left and the right one: "od", "odleft", "leftod", "odl".
-template <std::size_t N>
-void add_diameters(Names& names, const std::string& side, const std::string_view (&words)[N]) {
-  for (const std::string_view word : words) {
-    names[std::string(word)].push_back({side + "_diameter", ""});
-    for (const std::string end : {"left", "right"}) {
-      const ColumnName column{side + "_" + end, ""};
-      names[std::string(word) + end].push_back(column);
-      names[end + std::string(word)].push_back(column);
-      names[std::string(word) + end[0]].push_back(column);
-    }
+/// Calls f(word) for all words between blanks.
+template <class F>
+void for_each_word(std::string_view words, F f) {
+  for (std::size_t start = 0; start < words.size();) {
+    const std::size_t end = std::min(words.find(' ', start), words.size());
+    f(std::string(words.substr(start, end - start)));
+    start = end + 1;
   }
+}
+
+void add_diameters(Names& names, const Words& side) {
+  const std::string column(side.column);
+  for_each_word(side.words, [&](const std::string& word) {
+    names[word].push_back({column + "_diameter", ""});
+    for (const std::string end : {"left", "right"}) {
+      for (const std::string& name : {word + end, end + word, word + end[0]}) {
+        names[name].push_back({column + "_" + end, ""});
+      }
+    }
+  });
 }
 
 /// Coefficients: k11 is kxx; b is another letter for damping.
@@ -166,34 +120,31 @@ Names all_names() {
   for (const WordWithUnit& word : with_units) {
     names[std::string(word.word)].push_back({std::string(word.column), word.unit});
   }
-  for (const std::string_view word : length_names)
-    names[std::string(word)].push_back({"length", ""});
-  add_diameters(names, "outer", outer_names);
-  add_diameters(names, "inner", inner_names);
+  for (const Words& side : diameters) add_diameters(names, side);
   add_coefficients(names);
-  for (const auto& [column, words] : others) {
-    for (const std::string_view word : words) {
-      names[std::string(word)].push_back({std::string(column), ""});
-    }
+  for (const Words& other : others) {
+    for_each_word(other.words, [&](const std::string& word) {
+      names[word].push_back({std::string(other.column), ""});
+    });
   }
   return names;
 }
 
 }  // namespace
 
-const std::vector<ColumnName>& columns_called(std::string_view name) {
+const std::vector<ColumnName>& columns_called(std::string_view plain) {
   static const Names names = all_names();
   static const std::vector<ColumnName> none;
-  const auto found = names.find(plain_name(name));
+  const auto found = names.find(plain);
   return found == names.end() ? none : found->second;
 }
 
-bool names_remarks(std::string_view name) {
+bool names_remarks(std::string_view plain) {
   static constexpr std::string_view words[] = {
-      "remark",      "remarks",     "comment",       "comments",    "note",        "notes",
-      "bemerkung",   "bemerkungen", "kommentar",     "kommentare",  "remarque",    "remarques",
-      "observacoes", "observacao",  "observaciones", "commentaire", "osservazioni"};
-  return std::find(std::begin(words), std::end(words), plain_name(name)) != std::end(words);
+      "remark",     "remarks",     "comment",       "comments",    "note",        "notes",
+      "bemerkung",  "bemerkungen", "kommentar",     "kommentare",  "remarque",    "remarques",
+      "observacao", "observacoes", "observaciones", "commentaire", "osservazioni"};
+  return std::find(std::begin(words), std::end(words), plain) != std::end(words);
 }
 
 }  // namespace whirl::inline io

@@ -14,10 +14,10 @@ struct ColumnName {
 };
 
 /// What a name may stand for, the likeliest first: "n" is a speed, or the number of a station.
-/// @param name  capitals, accents, blanks, "_", "-" and "." in it do not count
-const std::vector<ColumnName>& columns_called(std::string_view name);
+/// @param plain  a name as plain_name gives it
+const std::vector<ColumnName>& columns_called(std::string_view plain);
 
-/// Whether a name is that of a column of remarks, which nobody reads.
-bool names_remarks(std::string_view name);
+/// Whether a name, as plain_name gives it, is that of a column of remarks, which nobody reads.
+bool names_remarks(std::string_view plain);
 
 }  // namespace whirl::inline io

@@ -20,7 +20,6 @@ struct ColumnKind {
   std::string unit{};           ///< SI unit of its numbers; empty: numbers without one
   Range range = Range::any;     ///< of its numbers
   bool is_text = false;         ///< words, no numbers
-  std::string problem{};        ///< what is wrong if it is there; empty: nothing
   std::string unit_problem{};   ///< what is wrong if words have a unit
   bool must_be_filled = false;  ///< an empty cell is a problem
   /// Under another name it needs a unit: programs that write that name do not mean SI.

@@ -92,7 +92,7 @@ class ModelReading {
     std::string name;  ///< for messages
     std::string text;
   };
-  /// @param owner, item   of the table, as in FileTable
+  /// @param owner, item  of the table, as in FileTable
   /// @param columns_in  how many columns of this kind of table a line names
   std::optional<NamedText> text_of(
       TableReader& table, std::string_view key, const char* owner, std::size_t item,

@@ -4,15 +4,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "libio/model/column_names.hpp"
+#include "libio/text/encoding.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/vendor_units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
+
+/// Whether a column's own name is one that plain_name gives.
+bool is_own_name(std::string_view name, std::string_view plain) {
+  std::size_t at = 0;
+  for (const char c : name) {
+    if (c == '_') continue;
+    if (at == plain.size() || plain[at++] != c) return false;
+  }
+  return at == plain.size();
+}
 
 /// What a name means in a table of these kinds.
 NamedColumn meaning_of(const std::string& name, const std::vector<ColumnKind>& kinds) {
@@ -21,10 +31,10 @@ NamedColumn meaning_of(const std::string& name, const std::vector<ColumnKind>& k
     const auto found = std::find_if(kinds.begin(), kinds.end(), is_it);
     return found == kinds.end() ? nullptr : &*found;
   };
-  if (const auto* kind = find([&](const ColumnKind& k) { return plain_name(k.name) == plain; })) {
+  if (const auto* kind = find([&](const ColumnKind& k) { return is_own_name(k.name, plain); })) {
     return {.kind = kind};
   }
-  for (const ColumnName& called : columns_called(name)) {
+  for (const ColumnName& called : columns_called(plain)) {
     const auto* kind = find([&](const ColumnKind& k) { return k.name == called.column; });
     if (!kind) continue;
     const bool says_unit = !called.unit.empty() && !kind->is_text;
@@ -100,9 +110,7 @@ std::size_t known_in(const std::string& line, Delimiter delimiter,
 
 std::vector<std::string> names_of(const std::vector<ColumnKind>& kinds) {
   std::vector<std::string> names;
-  for (const ColumnKind& kind : kinds) {
-    if (kind.problem.empty()) names.push_back(kind.name);
-  }
+  for (const ColumnKind& kind : kinds) names.push_back(kind.name);
   return names;
 }
 
@@ -111,10 +119,8 @@ void report_unknown(const std::string& name, int place, const std::vector<Column
                     const ReportProblem& report, const ReportProblem& doubt) {
   constexpr std::size_t least_letters = 5;  // shorter ones are near to anything
   const std::vector<std::string> names = names_of(kinds);
-  std::string written = name;
-  for (char& c : written) {
-    c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string written = lower_case(name);
+  for (char& c : written) c = c == ' ' || c == '-' ? '_' : c;
   const auto near = name.size() < least_letters ? std::nullopt : nearest(written, names);
   if (near && near->front() == written.front()) {  // "weight" is no mistake for "length"
     report(place, name, fmt::format("unknown column, did you mean \"{}\"?", *near));
@@ -152,10 +158,8 @@ NamedColumn column_named(const Cell& cell, const std::vector<ColumnKind>& kinds,
   NamedColumn column = meaning_of(said.name, kinds);
   column.place = cell.place;
   if (!column.kind) {
-    const bool is_silent = said.name.empty() || names_remarks(said.name);
+    const bool is_silent = said.name.empty() || names_remarks(plain_name(said.name));
     if (!is_silent) report_unknown(said.name, cell.place, kinds, report, doubt);
-  } else if (!column.kind->problem.empty()) {
-    report(cell.place, said.name, column.kind->problem);
   } else if (said.has_unit) {
     take_unit(column, said.unit, cell.place, report);
   }

@@ -46,7 +46,8 @@ struct ShaftRow {
 /// Columns in any order, by these names or those of column_names.hpp: length, or position;
 /// outer_diameter, or outer_left and outer_right; inner_diameter, or inner_left and inner_right;
 /// material; layer; elements; carries; rayleigh_mass, rayleigh_stiffness; and of the station at the
-/// left end of the row: added_mass, polar_inertia, diametral_inertia, unbalance, unbalance_angle, name;
+/// left end of the row: added_mass, polar_inertia, diametral_inertia, unbalance, unbalance_angle,
+/// name;
 /// bearing, seal and probe name those of the model that are there. Only a length or position and an
 /// outer diameter are needed. Rows follow one another from left to right; a row with a layer above
 /// 1 lies on the last row of layer 1, and may leave its length out. The last row may be the end of

@@ -4,6 +4,7 @@
 #include <iconv.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace whirl::inline io {
 
@@ -71,6 +72,12 @@ Parsed<std::string> in_utf8(std::string text) {
   auto found = converted(text, "WINDOWS-1252");
   if (found) return std::move(*found);
   return Result::failed("is text in none of UTF-8, UTF-16 and Windows-1252: save it in UTF-8");
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
 }
 
 }  // namespace whirl::inline io

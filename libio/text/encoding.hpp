@@ -2,6 +2,7 @@
 /// Texts of other programs in UTF-8.
 
 #include <string>
+#include <string_view>
 
 #include "libio/text/units.hpp"
 
@@ -14,5 +15,8 @@ namespace whirl::inline io {
 ///
 /// @return  or what is wrong with a text that is in none of these
 Parsed<std::string> in_utf8(std::string text);
+
+/// A text with its letters of ASCII in lower case.
+std::string lower_case(std::string_view text);
 
 }  // namespace whirl::inline io

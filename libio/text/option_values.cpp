@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/encoding.hpp"
 #include "libio/text/parameter_axis.hpp"
 #include "libio/text/value_range.hpp"
 
@@ -41,8 +41,7 @@ std::string ending_problem(std::string_view file, std::string_view endings) {
                ? ""
                : "expected the name of a file; standard output, -, is for --json";
   }
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_case(std::filesystem::path(file).extension().string());
   const bool is_right = ending.empty() || endings.empty() || is_among(ending, endings);
   if (is_right || !is_among(ending, endings_of_formats)) return "";
   const std::string_view right = endings.substr(0, endings.find(' '));

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "libio/text/encoding.hpp"
+
 namespace whirl::inline io {
 
 namespace {
@@ -37,13 +39,6 @@ constexpr Spelling masses[] = {{"lb", "lb"}, {"lbs", "lb"}, {"lbm", "lb"}};
 
 bool is_latin_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
 }
 
 /// What stands beside a spelling in a list; none: nothing does.
@@ -79,15 +74,15 @@ std::string without_brackets(std::string_view text) {
 /// A vendor's unit in the spelling of parse_as: words replaced, "-" between words a product.
 /// @param has_masses  pounds are masses, not forces
 std::string respelled(std::string_view text, bool has_masses) {
-  if (const auto whole = meant_by(lower(text), wholes)) return *whole;
+  if (const auto whole = meant_by(lower_case(text), wholes)) return *whole;
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i;
     while (end < text.size() && is_latin_letter(text[end])) ++end;
     if (end > i) {
       const std::string word(text.substr(i, end - i));
-      const auto mass = has_masses ? meant_by(lower(word), masses) : std::nullopt;
-      result += mass ? *mass : meant_by(lower(word), words).value_or(word);
+      const auto mass = has_masses ? meant_by(lower_case(word), masses) : std::nullopt;
+      result += mass ? *mass : meant_by(lower_case(word), words).value_or(word);
       i = end;
       continue;
     }

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "libio/text/delimited.hpp"
+#include "libio/text/encoding.hpp"
 
 namespace whirl::inline io {
 
@@ -153,6 +154,13 @@ pugi::xml_document parsed(const std::string& text, const std::string& part) {
   return document;
 }
 
+/// A part that every workbook has.
+pugi::xml_document needed_part(const Archive& archive, const std::string& name) {
+  const auto part = archive.part(name);
+  if (!part) throw WrongWorkbook{"it has no sheets; is it another archive than .xlsx?"};
+  return parsed(*part, name);
+}
+
 /// Text of a cell in one line, without what delimits cells.
 std::string one_line(std::string text) {
   for (char& c : text) {
@@ -272,9 +280,7 @@ std::string text_of_sheet(const std::string& part, const std::string& name,
 std::map<std::string, std::string, std::less<>> parts_by_id(const Archive& archive) {
   std::map<std::string, std::string, std::less<>> parts;
   const std::string name = "xl/_rels/workbook.xml.rels";
-  const auto part = archive.part(name);
-  if (!part) throw WrongWorkbook{"it has no sheets; is it another archive than .xlsx?"};
-  const pugi::xml_document document = parsed(*part, name);
+  const pugi::xml_document document = needed_part(archive, name);
   for_each_child(child_of(document, "Relationships"), "Relationship",
                  [&](const pugi::xml_node& link) {
                    std::string target(attribute_of(link, "Target"));
@@ -289,9 +295,7 @@ std::vector<Sheet> all_sheets(const std::string& bytes) {
   const Archive archive(bytes);
   const auto parts = parts_by_id(archive);
   const std::string name = "xl/workbook.xml";
-  const auto part = archive.part(name);
-  if (!part) throw WrongWorkbook{"it has no sheets; is it another archive than .xlsx?"};
-  const pugi::xml_document document = parsed(*part, name);
+  const pugi::xml_document document = needed_part(archive, name);
   const std::vector<std::string> texts = shared_texts(archive);
   std::vector<Sheet> sheets;
   for_each_child(child_of(child_of(document, "workbook"), "sheets"), "sheet",
@@ -361,9 +365,7 @@ std::string names_of(const std::vector<const Sheet*>& sheets) {
 SheetName sheet_name(const std::string& name) {
   const auto at = name.find('#');
   const std::string file = name.substr(0, at);
-  std::string lower = file;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(file);
   const bool is_one = lower.ends_with(".xlsx") || lower.ends_with(".xlsm");
   if (at == std::string::npos || !is_one) return {.file = name};
   SheetName result{.file = file, .sheet = name.substr(at + 1)};
