@@ -32,7 +32,7 @@ std::string overview() {
   }
   return text +
          "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, "
-         "--force, --quiet\n"
+         "--units LIST, --force, --quiet\n"
          "More: whirl VERB --help, docs/command-line.md, docs/model-file.md\n";
 }
 

@@ -56,6 +56,9 @@ function tickLabel(value, digits) {
   return (value < 0 ? "−" : "") + text;
 }
 
+const unitOf = (title) => (title.match(/\[([^\]]*)\]\s*$/) || [, ""])[1];
+const withoutUnit = (title) => title.replace(/\s*\[[^\]]*\]\s*$/, "");
+
 // ---------------------------------------------------------------- axes
 
 /** A range along one direction. */
@@ -79,29 +82,44 @@ class Axis {
   }
   rounds(most) {
     const wide = (this.last - this.first) / most, power = 10 ** Math.floor(Math.log10(wide));
-    return this.every([1, 2, 5, 10].find((d) => d * power >= wide * (1 - 1e-9)) * power);
+    let step = [1, 2, 5, 10].find((d) => d * power >= wide * (1 - 1e-9)) * power, ticks = this.every(step);
+    for (let i = 0; i < 4 && ticks.length < 2; ++i) {  // one alone tells no size
+      const wanted = 0.75 * step, unit = 10 ** Math.floor(Math.log10(wanted) + 1e-9);
+      step = ([5, 2].find((d) => d * unit <= wanted * (1 + 1e-9)) || 1) * unit;
+      ticks = this.every(step);
+    }
+    return ticks;
   }
   every(step) {
     const largest = Math.max(Math.abs(this.first), Math.abs(this.last)), ticks = [];
     const needed = 1 + Math.floor(Math.log10(largest)) - Math.floor(Math.log10(step) + 1e-9);
     const digits = Math.min(17, Math.max(6, needed));
-    for (let i = Math.ceil(this.first / step - 1e-9); i <= this.last / step + 1e-9; ++i) {
+    const from = Math.ceil(this.first / step - 1e-9), to = this.last / step + 1e-9;
+    if (!(to - from < 1000) || !(Math.abs(from) < 1e15)) return ticks;  // rounding cannot tell them apart
+    for (let i = from; i <= to; ++i) {
       ticks.push({ value: i * step, label: tickLabel(i * step, digits) });
     }
     return ticks;
   }
   powers(most) {
     const from = Math.floor(Math.log10(this.first) + 1e-9), to = Math.ceil(Math.log10(this.last) - 1e-9);
-    const stride = Math.max(1, Math.floor((to - from + most) / most)), ticks = [];
+    const { start, stride } = this.labelled(from, to, most), ticks = [];
     for (let p = from; p <= to; ++p) {
       for (let digit = 1; digit <= 9; ++digit) {
         const value = digit * 10 ** p;
         if (value < this.first * (1 - 1e-9) || value > this.last * (1 + 1e-9)) continue;
-        if (digit === 1) ticks.push({ value, label: (p - from) % stride ? "" : "10" + superscript(String(p)) });
+        if (digit === 1) ticks.push({ value, label: (p - start) % stride ? "" : "10" + superscript(String(p)) });
         else if (stride === 1) ticks.push({ value, label: "" });
       }
     }
     return ticks;
+  }
+  /** Which powers of ten from one to another have labels: two at least where two are seen. */
+  labelled(from, to, most) {
+    const low = Math.ceil(Math.log10(this.first) - 1e-9), high = Math.floor(Math.log10(this.last) + 1e-9);
+    const stride = Math.max(1, Math.floor((to - from + most) / most)), next = from + stride * Math.ceil((low - from) / stride);
+    if (next + stride <= high || high <= low) return { start: from, stride };
+    return { start: low, stride: Math.ceil((high - low + 1) / most) };
   }
 }
 
@@ -188,8 +206,13 @@ class SvgContext {
 // ---------------------------------------------------------------- figures
 
 const FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
-const LEFT_SMALL = 58, SMALL_PLOT = 470;  // room left of narrow panels of figures that want to be wider
-const NARROW_PANEL = 300;  // panels beside each other are no narrower
+const SMALL_PLOT = 560;  // panels below this width, of figures that want to be wider, are small
+/** Rooms of small panels, where others than the style's; names of y stand in a line above them. */
+const SMALL_ROOMS = { name: 16, leader: 12, bar: 8, bar_width: 10, bar_room: 80, per_label_y: 30,
+  line: 16, edge: 16, frameless: 9, gap: 3 };
+/** Lines by which names in small panels that hover does not tell may be moved, the nearest first. */
+const ANY_LINE = [0, -1, 1, -2, 2, -3, 3, -4, 4, -5, 5, -6, 6];
+const NARROW_PANEL = 260;  // panels beside each other are no narrower
 
 function drawMarker(ctx, shape, x, y, size) {
   const r = 0.5 * size;
@@ -280,52 +303,88 @@ class Drawing {
     return height * (stacked / rows);
   }
 
-  sharesBelow(i) {
-    const below = this.panels[i + this.columns];
-    return below && this.panels[i].x.title !== "" && below.x.title === this.panels[i].x.title;
+  /** Whether a panel shares x with the one below it; panels of equal scales have ranges of their own. */
+  sharesBelow(p) {
+    const below = this.panels[this.panels.indexOf(p) + this.columns];
+    return below && p.x.title !== "" && below.x.title === p.x.title && !p.equal && !below.equal;
   }
 
   roomRight(ctx, p) {
-    let room = 22;
+    const { name, bar_room, edge, frameless } = this.rooms;
+    let room = !this.isSmall ? 22 : p.frame === false ? frameless : edge;
     ctx.font = `bold 13px ${FONT}`;
-    for (const c of p.curves) if (c.end_name) room = Math.max(room, page.style.name + 12 + ctx.measureText(c.end_name).width);
-    ctx.font = `12px ${FONT}`;
-    for (const r of p.rules) {
+    for (const c of p.curves) {
+      if (c.end_name) room = Math.max(room, name + (this.isSmall ? 4 : 12) + ctx.measureText(c.end_name).width);
+    }
+    for (const r of this.isSmall ? [] : p.rules) {  // small panels name them inside
       if (r.kind === "vertical" || !r.name) continue;
       const isAmong = r.kind === "horizontal" && hasEndNames(p);
       ctx.font = `${isAmong ? 13 : 12}px ${FONT}`;
-      room = Math.max(room, 12 + (isAmong ? page.style.name : 0) + ctx.measureText(r.name).width);
+      room = Math.max(room, 12 + (isAmong ? name : 0) + ctx.measureText(r.name).width);
     }
-    if (p.cells && !p.cells.categories) room = Math.max(room, page.style.bar_room);
+    if (p.cells && !p.cells.categories) room = Math.max(room, bar_room);
     return room;
   }
 
+  /** Room left of a small panel that its numbers need. */
+  roomLeft(ctx, p) {
+    if (p.frame === false) return this.rooms.frameless;
+    ctx.font = `12px ${FONT}`;
+    return 14 + Math.max(...this.ticksUp(p).map((t) => ctx.measureText(t.label).width), 0);
+  }
+
+  isNamedAbove(p) { return this.isSmall && p.frame !== false && p.y.title !== ""; }
+  roomAbove(row) {
+    const { title, above, line } = this.rooms;
+    return (row[0].title ? title : above) + (row.some((p) => this.isNamedAbove(p)) ? line : 0);
+  }
+  roomBelow(row) {
+    if (this.isSmall && row.every((p) => p.frame === false)) return this.rooms.above;  // without numbers
+    return this.sharesBelow(row[0]) ? this.rooms.between : this.rooms.under;
+  }
+
   layout(ctx, width, height, top = 4) {
-    const { above, between, title, under } = page.style;
     this.width = width;
-    const columns = (this.columns = this.columnsAt(width)), count = this.panels.length, rows = Math.ceil(count / columns);
-    const hasNames = this.panels.some((p) => p.cells?.y_names);  // longer than numbers
-    const isSmall = width / columns < SMALL_PLOT && width < this.figure.width;
-    const left = (this.left = isSmall && !hasNames ? LEFT_SMALL : page.style.left);
-    const right = Math.max(...this.panels.map((p) => this.roomRight(ctx, p)));
-    let shares = 0, rooms = 0;
-    for (let r = 0; r < rows; ++r) {
-      const p = this.panels[r * columns];
-      shares += p.share;
-      rooms += (p.title ? title : above) + (this.sharesBelow(r * columns) ? between : under);
+    this.columns = this.columnsAt(width);
+    this.isShrunk = width < this.figure.width;
+    this.isSmall = this.isShrunk && width / this.columns < SMALL_PLOT;
+    this.rooms = this.isSmall ? { ...page.style, ...SMALL_ROOMS } : page.style;
+    this.left = this.rooms.left;
+    this.right = Math.max(...this.panels.map((p) => this.roomRight(ctx, p)));
+    this.placePanels(height, top);
+    for (let pass = 0; this.isSmall && pass < 2; ++pass) {  // the numbers follow the width of what they leave
+      this.left = Math.max(...this.panels.map((p) => this.roomLeft(ctx, p)));
+      this.placePanels(height, top);
     }
+  }
+
+  get rows() {
+    return Array.from({ length: Math.ceil(this.panels.length / this.columns) },
+      (_, r) => this.panels.slice(r * this.columns, (r + 1) * this.columns));
+  }
+
+  placePanels(height, top) {
+    const { rows, left, right } = this, pitch = this.width / this.columns, sum = (values) => values.reduce((a, b) => a + b, 0);
+    const shares = sum(rows.map((row) => row[0].share)), rooms = sum(rows.map((row) => this.roomAbove(row) + this.roomBelow(row)));
     let y = top;
-    for (let r = 0; r < rows; ++r) {
-      const first = this.panels[r * columns], h = ((height - top - rooms) * first.share) / shares;
-      y += first.title ? title : above;
-      for (let c = 0; c < columns && r * columns + c < count; ++c) {
-        const p = this.panels[r * columns + c];
-        p.box = { x: (width * c) / columns + left, y, w: width / columns - left - right, h };
-        p.lowest = !this.sharesBelow(r * columns + c);
+    for (const row of rows) {
+      const h = ((height - top - rooms) * row[0].share) / shares;
+      y += this.roomAbove(row);
+      row.forEach((p, c) => {
+        p.box = { x: pitch * c + left, y, w: pitch - left - right, h };
+        p.lowest = !this.sharesBelow(p);
         this.place(p);
-      }
-      y += h + (this.sharesBelow(r * columns) ? between : under);
+      });
+      y += h + this.roomBelow(row);
     }
+  }
+
+  /** Height at which small panels of equal scales fill the width, no higher than wide; not below another height. */
+  filledHeight(ctx, width, height) {
+    this.layout(ctx, width, height);
+    const wanted = (p) => p.box.w * Math.min(1, (p.y.last - p.y.first) / (p.x.last - p.x.first));
+    const lacks = this.panels.filter((p) => this.isSmall && p.equal).map((p) => wanted(p) / p.box.h - 1);
+    return height + Math.max(0, ...lacks) * this.rows.reduce((sum, row) => sum + row[0].box.h, 0);
   }
 
   /** Axes of a panel in its box. */
@@ -352,6 +411,8 @@ class Drawing {
     this.layout(ctx, width, height, top);
     for (const p of this.panels) {
       const { x, y, w, h } = p.box;
+      p.taken = [];  // places of texts
+      p.ruleNames = [];  // drawn later, over lines
       ctx.save();
       ctx.beginPath();
       ctx.rect(x, y, w, h);
@@ -374,15 +435,77 @@ class Drawing {
       for (const c of p.curves) if (this.isShown(c)) this.drawMarkers(ctx, p, c);
       ctx.restore();
       this.drawEndNames(ctx, p);
+      for (const draw of p.ruleNames) draw();
       for (const l of p.labels) this.drawLabel(ctx, p, l);
     }
   }
 
-  /** The parts of a title, divided by " | ", that fit a width. */
+  /** The parts of a title, divided by " | ", that fit a width; of a small panel words, too. */
   fittingTitle(ctx, title, width) {
     const parts = title.split(" | ");
     while (parts.length > 1 && ctx.measureText(parts.join(" | ")).width > width) parts.pop();
-    return parts.join(" | ");
+    return this.isSmall ? this.shortened(ctx, parts.join(" | "), "", width) : parts.join(" | ");
+  }
+
+  /** The name of an axis, without its last letters where it is wider than a shrunk picture; the unit stays. */
+  fittingName(ctx, title) {
+    const name = withoutUnit(title);
+    return this.isShrunk ? this.shortened(ctx, name, title.slice(name.length), this.width / this.columns - 8) : title;
+  }
+
+  /** A text and its end that fit a width: the last letters of the text are left out. */
+  shortened(ctx, text, end, width) {
+    const letters = [...text];
+    let fitting = text + end;
+    while (letters.length && ctx.measureText(fitting).width > width) {
+      letters.pop();
+      fitting = `${letters.join("").trimEnd()}…${end}`;
+    }
+    return fitting;
+  }
+
+  /** Middle of a text nearest to a wanted one that keeps it within a shrunk picture. */
+  middleOf(ctx, text, p, wanted) {
+    if (!this.isShrunk) return wanted;
+    const half = 0.5 * ctx.measureText(text).width + 2, [first, last] = this.columnOf(p);
+    return Math.max(first + half, Math.min(wanted, last - half));
+  }
+  /** Left and right end of what belongs to a panel and those above and below it. */
+  columnOf(p) {
+    const first = p.box.x - this.left;
+    return [first, first + this.width / this.columns];
+  }
+
+  /**
+   * A text within a panel. In a small one a text that would lie on another one, or reach out, is moved by lines, those
+   * that may be tried, or left out: libio/drawing/panel_svg.cpp has the same for pictures of a given size.
+   */
+  addText(ctx, p, text, x, y, color, lines) {
+    if (!text) return;
+    if (!this.isSmall) return this.halo(ctx, text, x, y, color);
+    const { width } = ctx.measureText(text), size = Number(ctx.font.match(/([\d.]+)px/)[1]);
+    const before = { left: 0, center: 0.5, right: 1 }[ctx.textAlign] * width;
+    const [first, last] = this.columnOf(p), least = p.frame === false ? first + 2 : p.box.x - 4;  // right of the numbers
+    const left = Math.max(least, Math.min(x - before, last - 2 - width));
+    for (const line of lines) {
+      const floor = y + line * (size + 1);
+      const place = { text, left, right: left + width, top: floor - 0.8 * size, floor: floor + 0.25 * size };
+      const others = p.taken.filter((other) => this.areNear(place, other));
+      if (others.some((other) => other.text === text)) return;  // it is said there
+      if (others.length || !this.isWithin(p, place)) continue;
+      p.taken.push(place);
+      return this.halo(ctx, text, left + before, floor, color);
+    }
+  }
+  /** Lines by which a label may be moved: up in the upper half of a panel, down in the lower one, or back where an edge is near. */
+  linesFrom({ box: { y, h } }, at) {
+    const isUp = at < y + h / 2, lines = (isUp ? at - y : y + h - at) / 12.5;
+    return [0, 1, 2, ...(lines < 2 ? [-1] : []), ...(lines < 1 ? [-2] : [])].map((n) => (isUp ? -n : n));
+  }
+  isWithin(p, { top, floor }) { return top >= p.box.y - 2 && floor <= p.box.y + p.box.h + 2; }
+  areNear(a, b) {
+    const { gap } = this.rooms;
+    return a.left < b.right + gap && b.left < a.right + gap && a.top < b.floor && b.top < a.floor;
   }
 
   halo(ctx, text, x, y, color) {
@@ -395,6 +518,27 @@ class Drawing {
     ctx.fillText(text, x, y);
   }
 
+  /** Ticks at the middles of named columns or rows, as many as have room. */
+  namedTicks(middles, names, length, room) {
+    const every = Math.ceil((room * names.length) / length);
+    return names.map((label, i) => ({ value: middles[i], label })).filter((_, i) => i % every === 0);
+  }
+  ticksOf(axis, step, length, room) {
+    if (!step || axis.last - axis.first <= 2 * step) return axis.ticks(Math.max(2, Math.floor(length / room)));
+    while ((axis.last - axis.first) / step > 8) step *= 2;
+    return axis.every(step);
+  }
+  ticksAlong(p) {
+    if (p.cells?.x_names) return this.namedTicks(p.cells.x, p.cells.x_names, p.box.w, 66);
+    const rounding = 1e-9 * (p.ax.last - p.ax.first);
+    return this.ticksOf(p.ax, p.x.step, p.box.w, this.rooms.per_label_x)
+      .filter((t) => t.value >= p.ax.first - rounding && t.value <= p.ax.last + rounding);
+  }
+  ticksUp(p) {
+    if (p.cells?.y_names) return this.namedTicks(p.cells.y, p.cells.y_names, p.box.h, 15);
+    return this.ticksOf(p.ay, p.y.step, p.box.h, this.rooms.per_label_y);
+  }
+
   drawAxes(ctx, p) {
     const { x, y, w, h } = p.box, ink = this.color("ink"), faint = this.color("faint");
     ctx.setLineDash([]);
@@ -403,25 +547,11 @@ class Drawing {
       ctx.font = `bold 13px ${FONT}`;
       ctx.textAlign = "center";
       ctx.fillStyle = ink;
-      ctx.fillText(this.fittingTitle(ctx, p.title, w + 24), x + w / 2, y - 9);
+      const above = this.isNamedAbove(p) ? this.rooms.line : 0, title = this.fittingTitle(ctx, p.title, w + 24);
+      ctx.fillText(title, this.middleOf(ctx, title, p, x + w / 2), y - 9 - above);
     }
     if (p.frame === false) return;
-    const named = (middles, names, length, room) => {
-      const pitch = length / names.length, every = Math.ceil(room / pitch);
-      return names.map((label, i) => ({ value: middles[i], label })).filter((_, i) => i % every === 0);
-    };
-    const { per_label_x, per_label_y, tick_label, axis_title } = page.style;
-    let along = p.ax.ticks(Math.max(2, Math.floor(w / per_label_x))), up = p.ay.ticks(Math.max(2, Math.floor(h / per_label_y)));
-    const every = (axis, step) => {
-      while ((axis.last - axis.first) / step > 8) step *= 2;
-      return axis.every(step);
-    };
-    if (p.x.step && p.ax.last - p.ax.first > 2 * p.x.step) along = every(p.ax, p.x.step);
-    if (p.y.step && p.ay.last - p.ay.first > 2 * p.y.step) up = every(p.ay, p.y.step);
-    if (p.cells?.x_names) along = named(p.cells.x, p.cells.x_names, w, 66);
-    if (p.cells?.y_names) up = named(p.cells.y, p.cells.y_names, h, 15);
-    const rounding = 1e-9 * (p.ax.last - p.ax.first);
-    along = along.filter((t) => t.value >= p.ax.first - rounding && t.value <= p.ax.last + rounding || p.cells?.x_names);
+    const { tick_label, axis_title } = this.rooms, along = this.ticksAlong(p), up = this.ticksUp(p);
     ctx.font = `12px ${FONT}`;
     for (const [ticks, isX] of [[along, true], [up, false]]) {
       for (const t of ticks) {
@@ -439,7 +569,7 @@ class Drawing {
         if (isX) { ctx.moveTo(at, y + h); ctx.lineTo(at, y + h + long); } else { ctx.moveTo(x - long, at); ctx.lineTo(x, at); }
         ctx.stroke();
         ctx.textAlign = isX ? "center" : "right";
-        if (isX && p.lowest) ctx.fillText(t.label, at, y + h + tick_label);
+        if (isX && p.lowest) ctx.fillText(t.label, this.middleOf(ctx, t.label, p, at), y + h + tick_label);
         if (!isX) ctx.fillText(t.label, x - 10, at + 4.5);
       }
     }
@@ -452,7 +582,15 @@ class Drawing {
     ctx.font = `13px ${FONT}`;
     ctx.textAlign = "center";
     ctx.fillStyle = ink;
-    if (p.lowest) ctx.fillText(p.x.title, x + w / 2, y + h + axis_title);
+    if (p.lowest) {
+      const name = this.fittingName(ctx, p.x.title);
+      ctx.fillText(name, this.middleOf(ctx, name, p, x + w / 2), y + h + axis_title);
+    }
+    if (this.isNamedAbove(p)) {
+      ctx.textAlign = "left";
+      ctx.fillText(this.fittingName(ctx, p.y.title), x - this.left + 4, y - 8);
+      return;
+    }
     ctx.save();
     ctx.translate(x - this.left + 19, y + h / 2);
     ctx.rotate(-Math.PI / 2);
@@ -497,7 +635,7 @@ class Drawing {
         }
       }
     }
-    if (!cells.prints_values || p.box.w / nx < 25) return;
+    if (!cells.prints_values || p.box.w / nx < (this.isSmall ? 30 : 25)) return;
     ctx.font = `11px ${FONT}`;
     ctx.textAlign = "center";
     for (let j = 0; j < ny; ++j) {
@@ -510,7 +648,7 @@ class Drawing {
   }
 
   drawColorBar(ctx, p) {
-    const { bar, bar_width: thick, bar_room } = page.style;
+    const { bar, bar_width: thick, bar_room } = this.rooms;
     const { x, y, w, h } = p.box, left = x + w + bar, cells = p.cells;
     for (let i = 0; i < 64; ++i) {
       ctx.fillStyle = `rgb(${mapColor(cells.map, (i + 0.5) / 64)})`;
@@ -547,27 +685,38 @@ class Drawing {
         const at = this.px(p, r.at);
         ctx.moveTo(at, y);
         ctx.lineTo(at, y + h);
-        const fits = at + 5 + ctx.measureText(r.name).width < this.width;
+        const fits = at + 5 + ctx.measureText(r.name).width < (this.isSmall ? x + w : this.width);
         if (!fits) align = "right";
         if (at >= x - 1 && at <= x + w + 1) end = [fits ? at + 5 : at - 5, y + h - 8];
       } else if (r.kind === "horizontal") {
         const at = this.py(p, r.at);
         ctx.moveTo(x, at);
         ctx.lineTo(x + w, at);
-        if (at >= y - 1 && at <= y + h + 1 && !hasEndNames(p)) end = [x + w + 5, at + 4];
+        const isSeen = at >= y - 1 && at <= y + h + 1;
+        if (isSeen && this.isSmall) end = [x + w - 3, at - 4], align = "right";
+        else if (isSeen && !hasEndNames(p)) end = [x + w + 5, at + 4];
       } else {
         ctx.moveTo(this.px(p, p.ax.first), this.py(p, r.at * p.ax.first));
         ctx.lineTo(this.px(p, p.ax.last), this.py(p, r.at * p.ax.last));
         const right = r.at * p.ax.last;
-        if (right <= p.ay.last && right >= p.ay.first) end = [x + w + 5, this.py(p, right) + 4];
-        else if (p.ay.last / r.at > p.ax.first && right > p.ay.last) end = [this.px(p, p.ay.last / r.at) - 4, y + 14], align = "right";
+        const isRight = right <= p.ay.last && right >= p.ay.first;
+        if (isRight && this.isSmall) end = [x + w - 4, this.py(p, right) - 3], align = "right";
+        else if (isRight) end = [x + w + 5, this.py(p, right) + 4];
+        else if (r.at < 0 && p.ay.first >= 0) {  // it falls, and is seen to the left of zero
+          const isLeft = p.ay.last / r.at <= p.ax.first;
+          end = isLeft ? [x + 4, this.py(p, r.at * p.ax.first) - 3] : [this.px(p, p.ay.last / r.at) + 4, y + 14];
+        } else if (p.ay.last / r.at > p.ax.first && right > p.ay.last) end = [this.px(p, p.ay.last / r.at) - 4, y + 14], align = "right";
       }
       ctx.stroke();
       ctx.restore();
       if (!end || !r.name) continue;
-      ctx.font = `12px ${FONT}`;  // it was restored with the clip
-      ctx.textAlign = align;
-      this.halo(ctx, r.name, ...end, this.color(r.paint, true));
+      const drawName = () => {
+        ctx.font = `12px ${FONT}`;
+        ctx.textAlign = align;
+        this.addText(ctx, p, r.name, ...end, this.color(r.paint, true), ANY_LINE);
+      };
+      if (this.isSmall) p.ruleNames.push(drawName);
+      else drawName();
     }
   }
 
@@ -647,7 +796,7 @@ class Drawing {
       for (let i = Math.floor(every / 2); i < n; i += every) {
         if (!isFree(c.x[i], p.ax.log) || !isFree(c.y[i], p.ay.log)) continue;
         const X = this.px(p, c.x[i]), Y = this.py(p, c.y[i]);
-        if (X >= bx - 9 && X <= bx + w + 9 && Y >= by - 9 && Y <= by + h + 9) drawMarker(ctx, c.marker, X, Y, c.size);
+        if (X > bx - 0.5 && X < bx + w + 0.5 && Y > by - 0.5 && Y < by + h + 0.5) drawMarker(ctx, c.marker, X, Y, c.size);
       }
     }
   }
@@ -670,25 +819,25 @@ class Drawing {
       if (leaves) {
         ctx.font = `bold 13px ${FONT}`;
         ctx.textAlign = "right";
-        this.halo(ctx, c.end_name, end[0] - 7, end[1] + (end[1] < y + h / 2 ? 16 : -8), this.color(c.paint, true));
+        this.addText(ctx, p, c.end_name, end[0] - 7, end[1] + (end[1] < y + h / 2 ? 16 : -8), this.color(c.paint, true), ANY_LINE);
         continue;
       }
       ends.push({ name: c.end_name, paint: c.paint, font: `bold 13px ${FONT}`, end });
     }
-    for (const r of hasEndNames(p) ? p.rules : []) {
+    for (const r of hasEndNames(p) && !this.isSmall ? p.rules : []) {
       const at = this.py(p, r.at), isSeen = at >= y - 1 && at <= y + h + 1;
       if (r.kind === "horizontal" && r.name && isSeen) ends.push({ name: r.name, paint: r.paint, font: `13px ${FONT}`, end: [x + w, at] });
     }
     ends.sort((a, b) => a.end[1] - b.end[1]);
     const places = spread(ends.map((e) => e.end[1]), 17, y, y + h);
     ends.forEach(({ name, paint, font, end }, i) => {
-      const X = x + w + page.style.name, Y = places[i];
+      const X = x + w + this.rooms.name, Y = places[i];
       ctx.strokeStyle = this.color(paint);
       ctx.lineWidth = 0.8;
       ctx.setLineDash([1, 3]);
       ctx.beginPath();
       ctx.moveTo(...end);
-      ctx.lineTo(X - page.style.leader, Y);
+      ctx.lineTo(X - this.rooms.leader, Y);
       ctx.lineTo(X - 5, Y);
       ctx.stroke();
       ctx.font = font;
@@ -702,7 +851,7 @@ class Drawing {
     if (!(X >= x - 1 && X <= x + w + 1 && Y >= y - 9 && Y <= y + h + 9)) return;
     ctx.font = `11.5px ${FONT}`;
     ctx.textAlign = { start: "left", middle: "center", end: "right" }[l.anchor];
-    this.halo(ctx, l.text, X + l.dx, Y + l.dy, this.color(l.paint, true));
+    this.addText(ctx, p, l.text, X + l.dx, Y + l.dy, this.color(l.paint, true), this.linesFrom(p, Y));
   }
 
   /** Names of the legend, each once. */
@@ -776,7 +925,7 @@ class Drawing {
     this.dark = false;
     const rows = Math.ceil(this.panels.length / this.columnsAt(width)), most = rows > 1 ? 640 : 0.85 * Math.min(width, 460);
     const shrink = Math.min(1, Math.max(0.62, width / this.figure.width));
-    const least = rows > 1 ? 60 + 135 * rows : 0;  // names of y stand beside their panels
+    const least = rows > 1 ? 60 + 135 * rows : 0;  // names of y stand beside or above their panels
     const height = Math.round(Math.max(least, Math.min(this.heightAt(width) * shrink, most)));
     const ctx = new SvgContext(width, height);
     this.draw(ctx, width, height);

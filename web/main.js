@@ -31,13 +31,21 @@ function attempt(what, place, make) {
 
 const warningsOf = (result) => result.warnings.map((w) => element("div", { class: "warning", role: "alert" }, w));
 
-/** A card of names and values, with what more is to be said below. */
-function factsCard(id, title, facts, ...more) {
+/** A table of names and values. */
+function factsTable(facts) {
   const rows = (Array.isArray(facts) ? facts : []).map(([k, v]) => element("tr", {}, element("td", {}, k), element("td", {}, k === "command" ? element("code", {}, v) : v)));
-  return element("article", { class: "card facts-card", id }, element("h3", {}, title),
-    element("div", { class: "scroll" }, element("table", { class: "facts" }, ...rows)), ...more);
+  return element("div", { class: "scroll" }, element("table", { class: "facts" }, ...rows));
 }
 
+/** A card of names and values, with what more is to be said below. */
+function factsCard(id, title, facts, ...more) {
+  return element("article", { class: "card facts-card", id }, element("h3", {}, title), factsTable(facts), ...more);
+}
+
+/** The tables that a printed report has of a result. */
+const sheetsOf = (sheets) => !sheets.length ? [] : [element("details", { class: "sheets" }, element("summary", {}, "tables"),
+  ...sheets.flatMap(({ caption, header, rows, notes }) =>
+    [element("h4", {}, caption), tableOf(header, rows), ...notes.map((note) => element("p", { class: "notes" }, note))]))];
 const modelText = (text) => element("details", {}, element("summary", {}, "model file"), element("pre", {}, text));
 
 /** The figures of a result as cards, and what moves in space after its layout, or last. */
@@ -69,7 +77,7 @@ function addMachine(main, contents) {
     main.append(element("section", {}, heading, ...warningsOf(result), own));
     link(heading.id, result.heading);
     addFigures(result, own, () => {});
-    own.append(factsCard(`facts-${number}`, "How it was computed", result.facts, ...more));
+    own.append(factsCard(`facts-${number}`, "How it was computed", result.facts, ...more, ...sheetsOf(result.sheets)));
   });
 }
 
@@ -83,7 +91,7 @@ function addResults(main, contents) {
     section.append(...warningsOf(result));
     const grid = element("div", { class: "grid" });
     const more = result.contacts.rows ? [tableOf(result.contacts.header, result.contacts.rows)] : [];
-    grid.append(factsCard(`facts-${number}`, "Facts", result.facts, ...more, modelText(result.model)));
+    grid.append(factsCard(`facts-${number}`, "Facts", result.facts, ...more, ...sheetsOf(result.sheets), modelText(result.model)));
     section.append(grid);
     main.append(section);
     addFigures(result, grid, (id, name) => contents.append(element("a", { href: `#${id}` }, several ? `${number + 1} ${name}` : name)));
@@ -106,13 +114,21 @@ function listenToPrinter() {
 }
 let printedFrom = "light";
 
+/** Whose report it is, in one line: what the cover of a printed one says at length. */
+function coverLine() {
+  const lines = new Map(page.cover.lines);
+  const parts = ["Company", "Project", "Document", "Revision", "Author", "Date"].map((name) => [name, lines.get(name)]);
+  return parts.filter(([, value]) => value).map(([name, value]) => (name === "Revision" ? `revision ${value}` : value)).join(" · ");
+}
+
 function build() {
   const wanted = matchMedia("(prefers-color-scheme: dark)");
   document.documentElement.dataset.theme = wanted.matches ? "dark" : "light";
   wanted.addEventListener("change", (e) => setTheme(e.matches ? "dark" : "light"));
   const first = page.results[0], compared = page.comparison;
   document.getElementById("head").append(
-    element("div", {}, element("h1", {}, compared ? compared.names.join(", ") : first.title), element("p", {}, `report of whirl ${page.version}`)),
+    element("div", {}, element("h1", {}, compared ? compared.names.join(", ") : page.cover.title), element("p", {}, `report of whirl ${page.version}`),
+      element("details", { class: "cover" }, element("summary", {}, coverLine()), factsTable(page.cover.lines))),
     element("button", { type: "button", id: "theme", onclick: () => setTheme(isDark() ? "light" : "dark") }, "Light / dark"));
 
   const contents = element("div"), main = document.getElementById("main");

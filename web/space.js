@@ -97,9 +97,9 @@ class SpaceView {
   }
 
   makeBodies() {
-    const { z, shaft, disks, stators } = this.data;
+    const { z, shaft, disks, stators, supports } = this.data;
     const first = Math.min(...z), last = Math.max(...z);
-    const radius = Math.max(1e-6, ...disks.map((d) => d.outer), ...stators.map((s) => s.radius), ...shaft.map((p) => p.left_radius));
+    const radius = Math.max(1e-6, ...disks.map((d) => d.outer), ...stators.map((s) => s.radius), ...shaft.map((p) => p.left_radius), ...supports.map((s) => s.foot));
     this.middle = 0.5 * (first + last);
     this.size = Math.max(last - first, 2 * radius);  // of the drawing: one unit
     const clear = Math.max(0, ...stators.map((s) => 1.2 * s.radius)) / this.size;
@@ -109,6 +109,7 @@ class SpaceView {
     for (const piece of shaft) this.addPiece(piece);
     for (const disk of disks) this.addDisk(disk);
     this.stators = stators.map((s, i) => this.addStator(s, i));
+    for (const s of supports) this.addSupport(s);
     this.addRestLine(first - 0.04 * this.size, last + 0.04 * this.size);
     // trails of disks and contacts
     this.trailPoints = [...new Set([...disks.map((d) => d.point), ...stators.map((s) => s.rotor)])];
@@ -161,6 +162,27 @@ class SpaceView {
         for (let f = 0; f < facets; ++f) this.around(array, s * facets + f, q, r, (2 * Math.PI * f) / facets, side * disk.width);
       });
     }, isSymbol);
+  }
+
+  /** A bearing, or the spring below what carries one: a pyramid on a plate. Its tip moves with what is above, its foot with
+   *  what carries it. */
+  addSupport(s) {
+    const half = 0.5 * s.width, corners = [[1, 1], [1, -1], [-1, -1], [-1, 1]];
+    const under = () => (s.to >= 0 ? this.state(s.to) : { x: 0, y: 0 });
+    this.addRings(2, 4, false, "bearing", { flatShading: true }, (array) => {
+      const above = this.state(s.from), foot = under();
+      corners.forEach(([a, b], f) => {
+        this.set(array, f, above.x, above.y - s.tip, s.z);
+        this.set(array, 4 + f, foot.x + a * half, foot.y - s.foot, s.z + b * half);
+      });
+    });
+    this.addRings(2, 4, false, "rest", { flatShading: true }, (array) => {
+      const foot = under();
+      corners.forEach(([a, b], f) => {
+        this.set(array, f, foot.x, foot.y - s.foot, s.z);
+        this.set(array, 4 + f, foot.x + 1.6 * a * half, foot.y - s.foot, s.z + 1.6 * b * half);
+      });
+    });
   }
 
   /** A stator with the flash where it is touched. */
@@ -255,6 +277,7 @@ class SpaceView {
       ? "Drag to turn, wheel to zoom, right button to move. The line after each disk and contact is its path; a stator lights up while it is touched."
       : `${m.about} Paths are its orbits. Drag to turn, wheel to zoom, right button to move.`;
     this.message.textContent += this.stators.length > 0 ? " Lengths and thicknesses of stators are symbols." : "";
+    this.message.textContent += this.data.supports.length > 0 ? " Pyramids are bearings and springs, not to scale." : "";
     if (this.data.symbols) this.message.textContent += ` ${this.data.symbols}.`;
     this.trails = null;
     this.show();

@@ -37,7 +37,6 @@ const tip = {
   hide() { document.getElementById("tip").hidden = true; },
 };
 
-const unitOf = (title) => (title.match(/\[([^\]]*)\]\s*$/) || [, ""])[1];
 /** A command line with texts for its places, {x}; a brace of its own is written twice there. */
 const filled = (command, texts) =>
   command.replace(/\{\{|\{(-?[nxy])\}/g, (place, name) => (name === undefined ? "{" : texts[name] ?? place));
@@ -46,7 +45,6 @@ const csvText = (t) => {
   const text = String(t ?? "");
   return `"${(/^[=+\-@\t\r]/.test(text) ? "'" + text : text).replace(/"/g, '""')}"`;
 };
-const withoutUnit = (title) => title.replace(/\s*\[[^\]]*\]\s*$/, "");
 const LENGTHS = { m: 1, mm: 1e-3, "µm": 1e-6, nm: 1e-9 };
 
 const ON_PAPER = 400, WIDE_ON_PAPER = 820;  // [pixels] of a printed figure: letters are of some 7 pt on A4
@@ -63,21 +61,23 @@ class FigureView {
     this.over = element("canvas", { class: "over", tabindex: 0 });
     this.legend = element("div", { class: "legend" });
     this.extra = element("div");
+    this.ranges = element("div", { class: "ranges", hidden: "" });
     this.title = element("h3");
     this.about = element("p", { class: "about" });
     const tool = (name, title, run) => element("button", { type: "button", title, onclick: run }, name);
     this.select = element("select", { title: "Which", onchange: () => this.choose(Number(this.select.value)) },
-      ...figures.map((f, i) => element("option", { value: i }, f.variant)));
+      ...figures.map((f, i) => element("option", { value: i }, f.variant || f.heading)));
     this.plot = element("div", { class: "plot" }, this.canvas, this.over);
     this.card = element("article", { class: "card", id: `figure-${result.number}-${kind}` },
       element("div", { class: "top" }, element("div", {}, this.title),
         element("div", { class: "tools" }, figures.length > 1 ? this.select : "",
           tool("All", "See everything (double click)", () => this.showAll()),
           tool("Reset", "The view as at first", () => this.reset()),
+          (this.rangeTool = tool("Range", "Ranges of the axes as numbers", () => this.showRanges(this.ranges.hidden))),
           tool("SVG", "Download as SVG, as it is seen", () => this.saveSvg()),
           tool("PNG", "Download as PNG, as it is seen", () => this.savePng()),
           tool("CSV", "Download the data", () => this.saveCsv()))),
-      this.about, this.plot, this.legend, this.extra);
+      this.about, this.plot, this.ranges, this.legend, this.extra);
     this.isWide = figures[0].width > 880;
     if (this.isWide) this.card.classList.add("wide");
     views.push(this);
@@ -97,6 +97,7 @@ class FigureView {
     this.title.title = this.figure.summary;
     this.about.textContent = this.figure.subtitle || this.figure.summary;
     this.cursor = null;
+    this.showRanges(!this.ranges.hidden);
     this.makeLegend();
     this.makeExtra();
     if (this.width) this.draw();
@@ -151,19 +152,59 @@ class FigureView {
     this.height = Math.round(Math.min(isSquare ? height * scale : height * Math.min(1.15, scale), 900) - 40);
     this.height = Math.max(this.height, isSquare ? Math.min(260, height) : 0.8 * height - 40);
     if (isStacked) this.height = Math.max(this.height, Math.round(0.85 * height));
-    const dots = devicePixelRatio || 1;
+    const ctx = this.canvas.getContext("2d"), dots = devicePixelRatio || 1;
+    this.height = Math.round(this.drawing.filledHeight(ctx, this.width, this.height));
     for (const c of [this.canvas, this.over]) {
       c.width = this.width * dots;
       c.height = this.height * dots;
       c.style.height = `${this.height}px`;
     }
-    const ctx = this.canvas.getContext("2d");
     ctx.setTransform(dots, 0, 0, dots, 0, 0);
     ctx.clearRect(0, 0, this.width, this.height);
     this.drawing.dark = null;
     this.drawing.draw(ctx, this.width, this.height);
     this.drawOver();
+    this.tellRanges();
     this.isDrawn = true;
+  }
+
+  // ---- ranges as numbers
+
+  /** Shows or hides boxes for the ends of the axes of a panel; of several panels it is chosen. */
+  showRanges(areShown) {
+    this.ranges.hidden = !areShown;
+    this.rangeTool.setAttribute("aria-expanded", String(areShown));
+    if (!areShown) return;
+    const { panels } = this.drawing, name = (p, i) => `${i + 1} ${p.title.split(" | ")[0] || withoutUnit(p.y.title)}`;
+    this.rangePanel = panels[0];
+    const choice = panels.length < 2 ? "" : element("select", { "aria-label": "panel", onchange: (e) => {
+      this.rangePanel = panels[Number(e.target.value)];
+      this.tellRanges();
+    } }, ...panels.map((p, i) => element("option", { value: i }, name(p, i))));
+    this.boxes = ["x", "y"].map((axis) => ["from", "to"].map((end) => element("input", { type: "text", inputmode: "decimal",
+      size: 8, "aria-label": `${axis} ${end}`, onchange: () => this.takeRange(axis) })));
+    const pair = (axis, [from, to]) => element("span", {}, axis, from, "to", to);
+    this.ranges.replaceChildren(choice, pair("x", this.boxes[0]), pair("y", this.boxes[1]));
+    this.tellRanges();
+  }
+
+  /** Writes the ends of the axes into their boxes. */
+  tellRanges() {
+    if (this.ranges.hidden || !this.rangePanel.ax) return;
+    for (const [boxes, axis] of [[this.boxes[0], this.rangePanel.ax], [this.boxes[1], this.rangePanel.ay]]) {
+      boxes[0].value = shown(axis.first, 6);
+      boxes[1].value = shown(axis.last, 6);
+      for (const box of boxes) box.removeAttribute("aria-invalid");
+    }
+  }
+
+  /** Gives an axis the range in its boxes; what is no range is marked. */
+  takeRange(axis) {
+    const boxes = this.boxes[axis === "x" ? 0 : 1], p = this.rangePanel;
+    const [first, last] = boxes.map((box) => box.value.trim() === "" ? NaN : Number(box.value.replace(/−/g, "-")));
+    const isRange = first < last && Number.isFinite(last - first) && !(p[axis].log && first <= 0);
+    for (const box of boxes) box.setAttribute("aria-invalid", String(!isRange));
+    if (isRange) this.setView(p, axis === "x" ? [first, last] : null, axis === "y" ? [first, last] : null);
   }
 
   // ---- zoom, pan, hover

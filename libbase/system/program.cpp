@@ -6,12 +6,16 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <sstream>
+#include <thread>
 
 namespace whirl::inline base {
 
-std::optional<int> run_program(std::vector<std::string> words,
-                               const std::filesystem::path& output) {
+std::optional<int> run_program(std::vector<std::string> words, const std::filesystem::path& output,
+                               const std::function<void()>& meanwhile) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -27,10 +31,29 @@ std::optional<int> run_program(std::vector<std::string> words,
   posix_spawn_file_actions_destroy(&actions);
   if (problem != 0) return std::nullopt;
   int status = 0;
-  while (waitpid(child, &status, 0) != child) {
-    if (errno != EINTR) return std::nullopt;
+  while (true) {
+    const pid_t ended = waitpid(child, &status, meanwhile ? WNOHANG : 0);
+    if (ended == child) break;
+    if (ended < 0 && errno != EINTR) return std::nullopt;
+    if (!meanwhile) continue;
+    meanwhile();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::optional<std::string> program_named(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path program = std::filesystem::path(folder) / name;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(program, ignored) &&
+        ::access(program.c_str(), X_OK) == 0) {
+      return program.string();
+    }
+  }
+  return std::nullopt;
 }
 
 std::string last_words(const std::filesystem::path& output) {

@@ -28,6 +28,10 @@ struct FitRecord {
   /// Whether the readings are displacements; else each probe adds a constant that is found with the
   /// parameters, as the voltage of its gap.
   bool is_offset_known = true;
+  /// Orders of the speed, from 1, at which each probe adds a vector that is found with the
+  /// parameters: runout. 0: none.
+  int runout_orders = 0;
+  std::vector<Eigen::Index> runout_of{};  ///< number of a probe's vectors, see RunoutTerms
 };
 
 /// A parameter that a fit finds.
@@ -47,12 +51,14 @@ struct FreeParameter {
 struct FitSystem {
   ContactSystem system;
   std::vector<SystemSlope> slopes;
+  Vec runout{};  ///< coefficients of all probes, see RunoutTerms [m]
 };
 
 /// A record and the systems that it is compared with, all in the same n coordinates.
 struct FitSource {
   FitRecord record;
   Mat rows;  ///< what the probes read of the coordinates, probes x n
+  /// @param values  of the parameters, then of the runout
   /// @throws ModelError, NumericalError  for values that make no system
   std::function<FitSystem(const Vec& values)> system_at;
 };

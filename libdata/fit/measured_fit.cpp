@@ -15,6 +15,8 @@
 #include "libbase/numerics/spectrum.hpp"
 #include "libbase/numerics/statistics.hpp"
 #include "libbase/processes/work_queue.hpp"
+#include "libdata/fit/fit_notes.hpp"
+#include "libdata/fit/fit_spread.hpp"
 #include "libdata/fit/model_source.hpp"
 #include "libdata/fit/steady_record.hpp"
 #include "libdata/measured/station_motion.hpp"
@@ -28,10 +30,7 @@ constexpr Eigen::Index fewest_samples = 2;    ///< of a revolution
 constexpr double changed_phase = 0.02;        ///< of the rotor against an even speed [rad]
 constexpr double least_floor = 1e-4;          ///< of the deviation of what a probe reads
 constexpr double even_weights = 1.3;          ///< ratio of noises up to which they count as known
-constexpr double unexplained = 3.0;           ///< noise floors, from which what is left is told
-constexpr double least_explained = 0.5;       ///< share of the readings, of a fit that is one
-constexpr double clearly_above_least = 1.05;  ///< standard deviation over the least one
-constexpr double hardly_apart = 0.98;         ///< correlation that is told
+constexpr double hang_together = 1.5;         ///< samples that count as one, from which it is told
 constexpr double range_without_bounds = 0.5;  ///< of a value, to either side
 
 /// Readings of the span, probes x samples.
@@ -207,6 +206,17 @@ StationRecord stations_of(const FitMeasurement& m, Mat displacement) {
   return station_record(readings, m.scene->assembler);
 }
 
+/// How many samples nobody knows.
+long missing_samples(const std::vector<FitMeasurement>& measurements) {
+  long count = 0;
+  for (const FitMeasurement& m : measurements) {
+    for (Eigen::Index p = 0; p < std::ssize(m.readings.probes); ++p) {
+      count += std::ssize(missing_in(m, p));
+    }
+  }
+  return count;
+}
+
 /// What was measured and what was found, side by side.
 void add_motions(MeasuredFit& found, const std::vector<FitMeasurement>& measurements,
                  const std::vector<FitSource>& sources) {
@@ -262,73 +272,48 @@ void add_motions(MeasuredFit& found, const std::vector<FitMeasurement>& measurem
   }
 }
 
-void note_missing(MeasuredFit& found, const std::vector<FitMeasurement>& measurements) {
-  std::size_t count = 0;
-  for (const FitMeasurement& m : measurements) {
-    for (Eigen::Index p = 0; p < std::ssize(m.readings.probes); ++p)
-      count += missing_in(m, p).size();
-  }
-  if (count == 0) return;
-  found.notes.push_back(
-      fmt::format("{} missing sample{} left out of the fit, which lines are in place of elsewhere",
-                  count, count == 1 ? " is" : "s are"));
-}
-
-/// A search that ended where the motion found has less than half of what was read, and what is left
-/// is not noise, has not found a fit.
-void refuse_nonsense(MeasuredFit& found) {
-  if (found.explained >= least_explained || found.residual < unexplained) return;
-  found.same_end = 0;
-  if (found.has_converged) {
-    found.has_converged = false;
-    found.why_not = fmt::format(
-        "the motion found explains {} of the variance of the readings",
-        found.explained > 0.0 ? fmt::format("{:.2g} %", 100.0 * found.explained) : "nothing");
-  }
-  found.notes.push_back(
-      "so little is explained: are probes swapped, or is a gain, a unit or the sign of an angle "
-      "wrong? Do they read gaps, so that offsets are to be found, too? Is the start far off?");
-}
-
-void add_notes(MeasuredFit& found) {
-  std::string names;
-  double most = 0.0;
-  for (const FittedProbe& p : found.probes) {
-    if (!(p.residual > unexplained * p.floor)) continue;
-    most = std::max(most, p.residual / p.floor);
-    if (names.find(p.name) == std::string::npos) names += (names.empty() ? "" : ", ") + p.name;
-  }
-  if (!names.empty()) {
-    found.notes.push_back(fmt::format(
-        "{}: up to {:.3g} times more is left than the noise that their upper frequencies show: the "
-        "model may not explain the records, or a search from more starts finds more",
-        names, most));
-  }
-  for (Eigen::Index i = 0; i < found.correlation.rows(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      if (!(std::abs(found.correlation(i, j)) > hardly_apart)) continue;
-      found.notes.push_back(fmt::format(
-          "{} and {}: their errors are correlated by {:.5f}, the records tell one combination of "
-          "them better than either",
-          found.parameters[static_cast<std::size_t>(j)].path,
-          found.parameters[static_cast<std::size_t>(i)].path, found.correlation(i, j)));
+/// A length that vectors of runout are measured by [m].
+double runout_scale(const std::vector<FitSource>& sources) {
+  double largest = 0.0;
+  for (const FitSource& source : sources) {
+    for (const auto& row : source.record.readings.rowwise()) {
+      const std::vector<double> there = finite(row.transpose());
+      largest = std::max(largest, standard_deviation(Vec::Map(there.data(), std::ssize(there))));
     }
   }
-  if (found.grazes > 0) {
-    found.notes.push_back(fmt::format(
-        "the motions found graze contacts {} time{}: derivatives are one-sided there, and "
-        "deviations less sure",
-        found.grazes, found.grazes == 1 ? "" : "s"));
+  return 0.1 * largest;
+}
+
+/// Lets deviations be those of what the model does not explain: errors that hang together tell less
+/// than as many independent ones, and known noise may be smaller than what is left.
+void widen_spread(const std::vector<FitSource>& sources, MeasuredFit& found) {
+  const double together = correlation_time(sources, found);
+  const double over_noise = found.is_noise_known ? std::max(found.residual, 1.0) : 1.0;
+  const bool is_chance = found.is_noise_known && found.why_not.empty();
+  if (is_chance || (together < hang_together && over_noise == 1.0)) return;
+  found.spread = over_noise * std::sqrt(together < hang_together ? 1.0 : together);
+  widen(found, found.spread);
+  for (FittedProbe& probe : found.probes) probe.offset_deviation *= found.spread;
+  found.notes.push_back(fmt::format(
+      "deviations are {:.3g} times those of white noise: what is left is more than that, or hangs "
+      "together over {:.3g} samples, as errors of the model or filtered noise do",
+      found.spread, together));
+}
+
+/// Puts the vectors of runout apart from the values of the model.
+void take_runout(const RunoutTerms& terms, std::size_t of_model, MeasuredFit& found) {
+  if (found.parameters.size() <= of_model) return;
+  const auto count = static_cast<Eigen::Index>(found.parameters.size() - of_model);
+  Vec values(count), deviations(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const FittedParameter& part = found.parameters[of_model + static_cast<std::size_t>(i)];
+    values(i) = part.value;
+    deviations(i) = part.standard_deviation;
   }
-  if (found.has_converged && found.over_least_deviation > clearly_above_least) {
-    found.notes.push_back(fmt::format(
-        "standard deviations are up to {:.3g} times the least possible: motions are too sensitive",
-        found.over_least_deviation));
-  }
-  if (found.starts > 1 && found.same_end == 1) {
-    found.notes.push_back(
-        fmt::format("of {} starts one alone ends here: more may find better values", found.starts));
-  }
+  found.runouts = terms.vectors(values, deviations);
+  found.parameters.resize(of_model);
+  const auto kept = static_cast<Eigen::Index>(of_model);
+  found.correlation = Mat(found.correlation.topLeftCorner(kept, kept));
 }
 
 }  // namespace
@@ -394,31 +379,44 @@ double noise_floor(const Vec& samples) {
 MeasuredFit fit(const std::vector<FitMeasurement>& measurements,
                 const std::vector<FreeParameter>& parameters, const MeasuredFitOptions& options) {
   std::vector<FitSource> sources;
+  RunoutTerms terms(options.runout_orders);
   for (const FitMeasurement& m : measurements) {
     const Mat rows = probe_rows(m.readings.probes, *m.scene, m.scene->displacement_map());
-    sources.push_back(model_source(fit_record(m, options), m.scene, rows, parameters, m.model_at));
+    FitRecord record = fit_record(m, options);
+    terms.assign(m.readings.probes, record);
+    sources.push_back(model_source(std::move(record), m.scene, rows, parameters, m.model_at));
+  }
+  std::vector<FreeParameter> unknowns = parameters;
+  for (FreeParameter& part : terms.parameters(runout_scale(sources))) {
+    unknowns.push_back(std::move(part));
   }
   MeasuredFitOptions search = options;
   search.search.is_noise_known = options.noise || options.period > 0;
   MeasuredFit found;
   found.starts = options.starts;
-  static_cast<Fit&>(found) = best_fit(sources, parameters, search, found.same_end);
+  static_cast<Fit&>(found) = best_fit(sources, unknowns, search, found.same_end);
   found.is_noise_known = search.search.is_noise_known;
   if (!found.is_noise_known && found.has_converged) {
     if (take_noise(found, sources)) {
-      std::vector<FreeParameter> nearer = parameters;
+      std::vector<FreeParameter> nearer = unknowns;
       for (std::size_t p = 0; p < nearer.size(); ++p) nearer[p].start = found.parameters[p].value;
       static_cast<Fit&>(found) = fit(sources, nearer, search.search);
       for (std::size_t p = 0; p < nearer.size(); ++p) {
-        found.parameters[p].start = parameters[p].start;
+        found.parameters[p].start = unknowns[p].start;
       }
     }
     found.log_likelihood = concentrated_likelihood(sources, found);
   }
   add_motions(found, measurements, sources);
-  note_missing(found, measurements);
+  if (const long missing = missing_samples(measurements); missing > 0) {
+    found.notes.push_back(fmt::format(
+        "{} missing sample{} left out of the fit, which lines are in place of elsewhere", missing,
+        missing == 1 ? " is" : "s are"));
+  }
   refuse_nonsense(found);
+  widen_spread(sources, found);
   add_notes(found);
+  take_runout(terms, parameters.size(), found);
   return found;
 }
 
@@ -428,7 +426,7 @@ std::vector<FitCandidate> compared(const std::vector<MeasuredFit>& fits,
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const MeasuredFit& fit = fits[i];
-    const int free = static_cast<int>(fit.parameters.size());
+    const int free = static_cast<int>(fit.parameters.size() + 2 * fit.runouts.size());
     const double information =
         free * std::log(static_cast<double>(fit.readings)) - 2.0 * fit.log_likelihood;
     all.push_back({.model = names[i],

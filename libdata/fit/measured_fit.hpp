@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libdata/fit/fit.hpp"
+#include "libdata/fit/fit_runout.hpp"
 #include "libdata/measured/probe_readings.hpp"
 #include "libdyn/system/probes.hpp"
 
@@ -56,6 +57,7 @@ struct MeasuredFitOptions {
   /// noise is what differs between periods, see steady_record. 0: motions need not repeat.
   int period = 0;
   bool finds_offsets = false;  ///< of the probes, see FitRecord::is_offset_known
+  int runout_orders = 0;       ///< at which each probe has a vector of runout, see FitRecord
   int starts = 1;              ///< first the model's values, then values between the bounds
   std::uint64_t seed = 1;
   int threads = 1;  ///< that take starts
@@ -169,7 +171,11 @@ struct MeasuredFit : Fit {
   int starts = 1;               ///< of the search
   int same_end = 1;             ///< starts that end within a standard deviation of the best one
   std::vector<FittedRecord> files;
+  /// Deviations over those of independent noise as large as it is known, or as what is left: errors
+  /// of a model hang together.
+  double spread = 1.0;
   std::vector<FittedProbe> probes;
+  std::vector<FittedRunout> runouts;  ///< if they were found; the same in all records
   std::vector<FittedStation> stations;
   std::vector<FitCandidate> candidates;  ///< this model first; empty: there are no others
   std::vector<std::string> notes;
@@ -201,7 +207,11 @@ struct MeasuredFit : Fit {
         column("over_least_deviation", &F::over_least_deviation, "",
                "largest standard deviation of a parameter over the least that an estimate without "
                "bias can have (Cramer and Rao)"),
+        column("spread", &F::spread, "",
+               "standard deviations over those of white noise: more where errors hang together, or "
+               "where more than the known noise is left"),
         rows(&F::files, "records").prefixed("record_"),
+        rows(&F::runouts, "runouts").prefixed("runout_").maybe(),
         rows(&F::probes, "fitted_probes").prefixed("probe_"),
         rows(&F::stations, "fitted_stations").prefixed("station_").only(in_file),
         rows(&F::candidates, "candidates").prefixed("candidate_").maybe()};

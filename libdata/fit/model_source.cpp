@@ -41,13 +41,13 @@ FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat
                      fmt::format("changes the speed, which {} was measured at", record.name));
   }
   const auto system_at = [scene, parameters, model_at = std::move(model_at)](const Vec& asked) {
-    Vec values = asked;
+    Vec values = asked.head(std::ssize(parameters));
     for (Eigen::Index p = 0; p < values.size(); ++p) {
       const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
       values(p) = inside(values(p), parameter, hardly * parameter.size);
     }
     const Scene here = scene_in_shapes_of(*scene, model_at(values));
-    FitSystem found{here.contacts, {}};
+    FitSystem found{here.contacts, {}, asked.tail(asked.size() - values.size())};
     for (Eigen::Index p = 0; p < values.size(); ++p) {
       const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
       const double middle = inside(values(p), parameter, neighborhood * parameter.size);

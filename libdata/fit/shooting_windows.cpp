@@ -8,6 +8,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/dense.hpp"
+#include "libdata/fit/fit_runout.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 
 namespace whirl::inline data {
@@ -85,10 +86,13 @@ Vec ShootingWindow::guess(const Vec& offset) const {
   return y;
 }
 
-MotionState ShootingWindow::state(const ContactSystem& system, const Vec& start) const {
+double ShootingWindow::angle(const ContactSystem& system, Eigen::Index sample) const {
   const FitRecord& record = source_->record;
-  const double turned =
-      record.phase + system.phase_rate() * (record.times(first_) - record.times(0));
+  return record.phase + system.phase_rate() * (record.times(first_ + sample) - record.times(0));
+}
+
+MotionState ShootingWindow::state(const ContactSystem& system, const Vec& start) const {
+  const double turned = angle(system, 0);
   const double revolution = std::floor(turned / (turn));
   MotionState state;
   state.revolution = static_cast<long>(revolution);
@@ -118,21 +122,30 @@ ShootingWindow::Comparison ShootingWindow::compare(const FitSystem& system, cons
   found.readings.resize(readings());
   if (slopes) {
     found.readings_by_start.resize(readings(), layout.size());
-    found.readings_by_parameter.resize(readings(), std::ssize(by));
+    const Eigen::Index unknowns = std::ssize(by) + system.runout.size();
+    found.readings_by_parameter = Mat::Zero(readings(), unknowns);
     found.end_by_start = motion.by_start.back();
-    found.end_by_parameter = motion.by_parameter.back();
+    found.end_by_parameter = Mat::Zero(layout.size(), unknowns);
+    found.end_by_parameter.leftCols(std::ssize(by)) = motion.by_parameter.back();
   }
   found.end = motion.states.col(motion.states.cols() - 1);
   for (Eigen::Index r = 0; r < readings(); ++r) {
     const auto [probe, sample] = read_[static_cast<std::size_t>(r)];
     const double noise = record.noise(probe);
     const auto row = rows.row(probe);
-    const double reading = row.dot(layout.eta(motion.states).col(sample)) + offset(probe);
+    const double turned = angle(system.system, sample);
+    const double reading = row.dot(layout.eta(motion.states).col(sample)) + offset(probe) +
+                           runout_at(record, system.runout, probe, turned);
     found.readings(r) = (reading - record.readings(probe, first_ + sample)) / noise;
     if (!slopes) continue;
     const auto at = static_cast<std::size_t>(sample);
     found.readings_by_start.row(r) = row * layout.eta(motion.by_start[at]) / noise;
-    found.readings_by_parameter.row(r) = row * layout.eta(motion.by_parameter[at]) / noise;
+    auto by_parameter = found.readings_by_parameter.row(r);
+    by_parameter.head(std::ssize(by)) = row * layout.eta(motion.by_parameter[at]) / noise;
+    if (record.runout_orders == 0) continue;
+    const Eigen::RowVectorXd functions = runout_functions(record, turned);
+    by_parameter.segment(std::ssize(by) + first_runout(record, probe), functions.size()) =
+        functions / noise;
   }
   return found;
 }
@@ -152,6 +165,12 @@ Mat ShootingWindow::predict(const FitSystem& system, const Vec& start) const {
                                             {.tolerance = tolerance, .by_start = false});
   Mat read = Mat::Constant(source_->rows.rows(), samples_, std::nan(""));
   read.leftCols(motion.states.cols()) = source_->rows * motion.states.topRows(source_->rows.cols());
+  for (Eigen::Index probe = 0; probe < read.rows(); ++probe) {
+    for (Eigen::Index sample = 0; sample < read.cols(); ++sample) {
+      read(probe, sample) +=
+          runout_at(source_->record, system.runout, probe, angle(system.system, sample));
+    }
+  }
   return read;
 }
 

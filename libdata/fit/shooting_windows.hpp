@@ -44,7 +44,8 @@ class ShootingWindow {
     bool is_good = false;  ///< whether the motion reaches the end
     Vec readings;          ///< (reading - measured) / noise, as many as readings()
     Vec end;               ///< state where the next window begins
-    Mat readings_by_start, readings_by_parameter, end_by_start, end_by_parameter;
+    Mat readings_by_start, end_by_start;
+    Mat readings_by_parameter, end_by_parameter;  ///< by the parameters, then by the runout
     long grazes = 0;
   };
   /// @param offset  as in guess()
@@ -54,7 +55,7 @@ class ShootingWindow {
   /// Derivatives of Comparison::readings by the offsets.
   Mat readings_by_offset() const;
 
-  /// What the motion from a state reads, without offsets, probes x its samples [m].
+  /// What the motion from a state reads with runout, without offsets, probes x its samples [m].
   Mat predict(const FitSystem& system, const Vec& start) const;
 
   Eigen::Index first_sample() const { return first_; }
@@ -65,6 +66,9 @@ class ShootingWindow {
   struct Reading {
     Eigen::Index probe, sample;  ///< sample within the window
   };
+  /// Angle of the rotor at a sample of the window [rad].
+  double angle(const ContactSystem& system, Eigen::Index sample) const;
+
   const FitSource* source_;
   Eigen::Index first_, samples_;
   bool has_next_;

@@ -18,30 +18,12 @@ namespace {
 
 constexpr Eigen::Index fewest_samples = 16;
 
-/// What the probes read of the modes, probes x modes.
-CMat readings_of(const std::vector<Mode>& modes, const std::vector<Probe>& probes,
-                 const Scene& scene) {
-  const DofMap& dofs = scene.system.dofs;
-  CMat readings(std::ssize(probes), std::ssize(modes));
-  for (std::size_t m = 0; m < modes.size(); ++m) {
-    const CVec full = dofs.T.cast<Complex>() * modes[m].shape;
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      const Point point = scene.assembler.point(probes[i].at);
-      readings(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) =
-          probes[i].reading([&](int c) { return full(dofs.full_index(point, c)); });
-    }
-  }
-  return readings;
-}
-
 /// Positions along the shaft; of probes at bodies NaN.
 Vec positions_of(const std::vector<Probe>& probes, const Assembler& assembler) {
   Vec z(std::ssize(probes));
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    const Point point = assembler.point(probes[i].at);
-    const bool is_node = point.kind == Point::Kind::node;
-    z(static_cast<Eigen::Index>(i)) =
-        is_node ? assembler.mesh().z.at(static_cast<std::size_t>(point.index)) : std::nan("");
+    const auto position = assembler.mesh().position_of(assembler.point(probes[i].at));
+    z(static_cast<Eigen::Index>(i)) = position.value_or(std::nan(""));
   }
   return z;
 }
@@ -89,6 +71,21 @@ void note_probes(const std::vector<ProbedStation>& stations, std::vector<std::st
 }
 
 }  // namespace
+
+CMat readings_of(const std::vector<Mode>& modes, const std::vector<Probe>& probes,
+                 const Scene& scene) {
+  const DofMap& dofs = scene.system.dofs;
+  CMat readings(std::ssize(probes), std::ssize(modes));
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const CVec full = dofs.T.cast<Complex>() * modes[m].shape;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const Point point = scene.assembler.point(probes[i].at);
+      readings(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) =
+          probes[i].reading([&](int c) { return full(dofs.full_index(point, c)); });
+    }
+  }
+  return readings;
+}
 
 MeasuredIdentification identify(const Model& model, const Scene& scene,
                                 const ProbeReadings& readings, const IdentifyOptions& options) {

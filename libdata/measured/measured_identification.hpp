@@ -97,6 +97,11 @@ constexpr double indistinct_mac = 0.9;
 /// Largest reading of a mode, over its largest radius, below which the probes do not see it.
 constexpr double unseen_reading = 1e-3;
 
+/// What the probes read of modes, complex, probes x modes.
+/// @param scene  whose points the shapes are of
+CMat readings_of(const std::vector<Mode>& modes, const std::vector<Probe>& probes,
+                 const Scene& scene);
+
 /// Identifies the modes in a steady measured motion.
 ///
 /// Peaks are those of the full spectra of all stations together, under a Hann window over the

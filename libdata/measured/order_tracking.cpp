@@ -8,6 +8,8 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/statistics.hpp"
+#include "libdata/measured/order_fit.hpp"
 
 namespace whirl::inline data {
 
@@ -33,37 +35,68 @@ TurnedSamples turned_samples(const ProbeReadings& readings) {
   return turned;
 }
 
-/// What makes a constant and orders of weighted readings, unknowns x samples.
-class OrderFit {
- public:
-  /// @param middle  angle of the middle of the point
-  /// @param width   of the window [rad]
-  OrderFit(const Vec& angle, double middle, double width, const std::vector<double>& orders)
-      : weighted_(angle.size(), 1 + 2 * std::ssize(orders)) {
-    for (Eigen::Index j = 0; j < angle.size(); ++j) {
-      // its square is the window
-      const double weight = std::cos(0.5 * turn * (angle(j) - middle) / width);
-      weighted_(j, 0) = weight;
-      for (std::size_t q = 0; q < orders.size(); ++q) {
-        const auto column = static_cast<Eigen::Index>(1 + 2 * q);
-        weighted_(j, column) = weight * std::cos(orders[q] * angle(j));
-        weighted_(j, column + 1) = -weight * std::sin(orders[q] * angle(j));
-      }
-    }
-    weights_ = weighted_.col(0);
-  }
+/// Revolutions from a point to the next.
+/// @param all  revolutions of the record
+double step_of(const ProbeReadings& readings, const OrderOptions& options, double all) {
+  constexpr double run_up = 0.1;  // change of speed
+  constexpr double most_points = 4000.0;
+  if (options.step) return *options.step;
+  const double half = 0.5 * options.revolutions;
+  if (readings.clock->variation() < run_up) return half;
+  return std::min(half, std::max(1.0, all / most_points));
+}
 
-  /// The constant, then real and imaginary parts of each order, a column per reading.
-  Mat of(const Mat& readings) const {
-    const Mat normal = weighted_.transpose() * weighted_;
-    return DenseLu<Mat>(normal).solve(weighted_.transpose() *
-                                      Mat(weights_.asDiagonal() * readings));
+/// When the rotor is at the middle of a point, and how fast.
+struct Middle {
+  double time, speed;
+};
+
+/// Both by the parabola of the angle over the revolutions about it: single pulses may be told as
+/// late as a sample, and jump by that.
+class SmoothClock {
+ public:
+  explicit SmoothClock(const TurnClock& clock) : turns_(clock.turns()) {
+    for (const double t : turns_) angles_.push_back(clock.angle(t));
+  }
+  Middle at(double angle) const {
+    constexpr std::ptrdiff_t half = 16;  // revolutions to either side
+    const auto here = std::lower_bound(angles_.begin(), angles_.end(), angle) - angles_.begin();
+    const auto first = std::max<std::ptrdiff_t>(0, here - half);
+    const auto last = std::min(std::ssize(angles_), here + half);
+    const double t0 = turns_[static_cast<std::size_t>(std::min(here, last - 1))];
+    const double scale =
+        turns_[static_cast<std::size_t>(last - 1)] - turns_[static_cast<std::size_t>(first)];
+    Mat powers(last - first, 3);
+    Vec turned(last - first);
+    for (std::ptrdiff_t k = first; k < last; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const double u = (turns_[i] - t0) / scale;
+      powers.row(k - first) << 1.0, u, u * u;
+      turned(k - first) = angles_[i] - angle;
+    }
+    const Vec b = least_squares(powers, turned);
+    double u = -b(0) / b(1);
+    for (int i = 0; i < 3; ++i) u = -b(0) / (b(1) + b(2) * u);
+    return {t0 + scale * u, (b(1) + 2.0 * b(2) * u) / scale};
   }
 
  private:
-  Mat weighted_;
-  Vec weights_;
+  std::vector<double> turns_, angles_;
 };
+
+/// Standard deviation of the noise of a curve [m], by differences of points that have no revolution
+/// in common; 0 where the curve is too short to tell noise from a resonance.
+/// @param apart  points from one to the next such point
+double noise_of(const CVec& response, Eigen::Index apart) {
+  constexpr Eigen::Index fewest = 40;   // such distances in a curve
+  constexpr double of_median = 1.1774;  // of the size of a complex number, over its deviation
+  if (response.size() < fewest * apart) return 0.0;
+  const Eigen::Index n = response.size() - 2 * apart;
+  const CVec second = response.head(n) - 2.0 * response.segment(apart, n) + response.tail(n);
+  const Vec sizes = second.cwiseAbs();
+  // of real and imaginary part: 1 + 4 + 1 times the variance of a point
+  return median_of({sizes.begin(), sizes.end()}) / (of_median * std::sqrt(6.0));
+}
 
 }  // namespace
 
@@ -79,7 +112,8 @@ OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& op
                     turned_by / turn, options.revolutions));
   }
   OrderTracking tracking;
-  const auto points = static_cast<Eigen::Index>(2.0 * turned_by / width) - 1;
+  const double step = turn * step_of(readings, options, turned_by / turn);
+  const auto points = static_cast<Eigen::Index>((turned_by - width) / step + 1e-9) + 1;
   tracking.time.resize(points);
   tracking.speed.resize(points);
   for (const Probe& probe : readings.probes) {
@@ -88,8 +122,9 @@ OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& op
     }
   }
   const double* angles = turned.angle.data();
+  const SmoothClock clock(*readings.clock);
   for (Eigen::Index k = 0; k < points; ++k) {
-    const double begin = turned.angle(0) + 0.5 * width * static_cast<double>(k);
+    const double begin = turned.angle(0) + step * static_cast<double>(k);
     const Eigen::Index from = std::lower_bound(angles, angles + n, begin) - angles;
     const Eigen::Index to = std::lower_bound(angles, angles + n, begin + width) - angles;
     const Vec angle = turned.angle.segment(from, to - from);
@@ -107,10 +142,9 @@ OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& op
       const auto row = static_cast<Eigen::Index>(1 + 2 * (c % options.orders.size()));
       tracking.curves[c].response(k) = {found(row, probe), found(row + 1, probe)};
     }
-    // the time at which the rotor is at the middle's angle
-    const Eigen::Index at = std::lower_bound(angles, angles + n, begin + 0.5 * width) - angles;
-    tracking.time(k) = readings.time(turned.first + at);
-    tracking.speed(k) = readings.clock->speed(tracking.time(k));
+    const Middle middle = clock.at(begin + 0.5 * width);
+    tracking.time(k) = middle.time;
+    tracking.speed(k) = middle.speed;
   }
   if (options.slow_roll) {
     Eigen::Index nearest = 0;
@@ -119,6 +153,14 @@ OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& op
     for (OrderCurve& curve : tracking.curves) {
       const Complex runout = curve.response(nearest);
       curve.response.array() -= runout;
+    }
+  }
+  const auto apart = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(width / step)));
+  for (std::size_t c = 0; c < tracking.curves.size(); ++c) {
+    const CVec& response = tracking.curves[c].response;
+    for (const OrderPeak& peak : order_peaks(tracking.speed, response, static_cast<Eigen::Index>(c),
+                                             noise_of(response, apart))) {
+      tracking.peaks.push_back(peak);
     }
   }
   return tracking;

@@ -26,6 +26,10 @@ using enum BifurcationKind;
 
 }  // namespace
 
+std::string ContinuationOptions::value_text(double value) const {
+  return fmt::format("{:.10g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
 void ContinuationOptions::check() const {
   if (!(low < high) || !(first >= low) || !(first <= high)) {
     throw OptionError("continuation: the parameter's range must hold its first value");
@@ -46,8 +50,8 @@ Continuation::Continuation(BranchEquations equations, const Vec& x,
       options_.first == options_.high ? 1.0 : (options_.first - options_.low) / options_.range();
   BranchTrial trial = corrector_.correct({Vec::Unit(size + 1, size), z}, Vec::Zero(size));
   if (trial.failure) {
-    throw NumericalError(
-        fmt::format("at the first value, {:g}: {}", options_.first, trial.failure.text()));
+    throw NumericalError(fmt::format("at the first value, {}: {}",
+                                     options_.value_text(options_.first), trial.failure.text()));
   }
   trial.point.value = options_.first;
   Vec along = Vec::Zero(size + 1);

@@ -17,10 +17,13 @@ struct ContinuationOptions {
   double located = 1e-9;         ///< accuracy of located bifurcations, over the range
   int period = 1;                ///< of orbits [revolutions]
   int most_points = 10000;
+  std::string unit{};  ///< of the parameter, as sentences tell its values; empty: none
 
   /// @throws OptionError  if a number is outside of what it may be
   void check() const;
   double range() const { return high - low; }
+  /// A value of the parameter as sentences tell it: "1.25 mm".
+  std::string value_text(double value) const;
 };
 
 /// Walks along a branch by pseudo-arclength.

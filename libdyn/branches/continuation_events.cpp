@@ -105,8 +105,8 @@ BranchTrial Continuation::stop_on_the_way(BranchTrial trial) const {
   if (const auto place = halving(last, trial.point)) {
     if (BranchTrial vertex = between(last, trial.point, *place); !vertex.failure) {
       trial = std::move(vertex);
-      trial.end = {EndKind::period_halved,
-                   fmt::format("it has half the period from {:.10g} on", trial.point.value)};
+      trial.end = {EndKind::period_halved, fmt::format("it has half the period from {} on",
+                                                       options_.value_text(trial.point.value))};
     }
   }
   trial.point.step = step;
@@ -156,8 +156,9 @@ BranchTrial Continuation::beyond_grazing(const Bifurcation& grazes, double u) co
 
 void Continuation::cross_or_end(const std::string& why) {
   const BranchPoint& last = branch_.points.back();
-  branch_.end = {EndKind::no_orbit,
-                 fmt::format("no orbit is found beyond {:.10g}: {}", last.value, why), why};
+  branch_.end = {
+      EndKind::no_orbit,
+      fmt::format("no orbit is found beyond {}: {}", options_.value_text(last.value), why), why};
   // the motions that the tangent predicts: do they touch otherwise, and from where on
   const auto touches_differ = [&](double length, std::vector<ContactMeasure>& seen) {
     Vec z = last.z + length * last.tangent;
@@ -202,10 +203,9 @@ void Continuation::cross_or_end(const std::string& why) {
       accept(std::move(beyond));
       return;
     }
-    branch_.end = {
-        EndKind::grazing,
-        fmt::format("contact {} grazes at about {:.7g}, beyond {:.10g} no orbit is found",
-                    end.contact, end.at.value, last.value)};
+    branch_.end = {EndKind::grazing,
+                   fmt::format("contact {} grazes at about {:.7g}, beyond {} no orbit is found",
+                               end.contact, end.at.value, options_.value_text(last.value))};
     branch_.bifurcations.push_back(std::move(end));
   }
 }

@@ -10,6 +10,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/system/memory.hpp"
 #include "libdyn/system/model.hpp"
+#include "libfe/analyses/connection_forces.hpp"
 #include "libfe/analyses/modes.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
@@ -190,6 +191,14 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
       result.pairs.push_back({from[f].label(), end.label(), none, none, none});
     }
   }
+  const std::vector<CarryingPart> parts = carrying_parts(assembler);
+  for (const ResponseEnd& end : from) {
+    for (const CarryingPart& part : parts) {
+      result.transmitted.push_back(
+          {end.label(), std::string(part.kind), part.name, CVec::Zero(count), CVec::Zero(count)});
+    }
+  }
+  std::optional<ConnectionForces> forces;
   std::vector<LargestResponse> largest(from.size());
   DynamicStiffness stiffness(system);
   // what holds nothing moves without end under a steady force, whatever rounding leaves of K
@@ -199,6 +208,7 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
     if (assembler.depends_on_whirl()) {
       stiffness = DynamicStiffness(assembler.uncondensed(Omega, w));
     }
+    if (!forces || assembler.depends_on_whirl()) forces.emplace(assembler, Omega, w);
     bool is_bounded = true;
     for (std::size_t f = 0; f < from.size(); ++f) {
       std::optional<CVec> q;
@@ -208,6 +218,13 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
       is_bounded = is_bounded && q.has_value();
       const CVec full = q ? CVec(dofs.T * *q) : CVec();
       if (q) largest[f].take(full, dofs);
+      const CVec carried = q ? forces->at(w, full, load_of(from[f], dofs))
+                             : CVec::Constant(std::ssize(parts) * 2, Complex(nan, nan));
+      for (std::size_t p = 0; p < parts.size(); ++p) {
+        TransmittedForce& to_part = result.transmitted[f * parts.size() + p];
+        to_part.x(k) = carried(static_cast<Eigen::Index>(2 * p));
+        to_part.y(k) = carried(static_cast<Eigen::Index>(2 * p + 1));
+      }
       for (std::size_t t = 0; t < to.size(); ++t) {
         const Complex H = q ? motion_of(to[t], dofs, full) : Complex(nan, nan);
         ResponsePair& pair = result.pairs[f * to.size() + t];

@@ -72,12 +72,30 @@ struct ResponsePair {
   }
 };
 
+/// Force on a bearing, seal, link or oil film by a force of size one, over frequency.
+struct TransmittedForce {
+  std::string from;        ///< the force
+  std::string kind, name;  ///< of the part that carries
+  CVec x, y;               ///< complex amplitudes [N/N]; by moments N/(N.m)
+
+  static constexpr auto columns() {
+    using T = TransmittedForce;
+    return ColumnList{
+        column("from", &T::from, "", "station and direction of the force"),
+        column("kind", &T::kind, "", "bearing, seal, link or oil film"),
+        column("name", &T::name, "", "its name"),
+        column("force_x", &T::x, "", "force on it along x by force").along("frequencies"),
+        column("force_y", &T::y, "", "force on it along y by force").along("frequencies")};
+  }
+};
+
 /// Frequency responses at a speed; group /frf.
 struct FrequencyResponse {
   double speed = 0.0;               ///< [rad/s]
   std::vector<double> frequencies;  ///< [rad/s]
   std::vector<ResponsePair> pairs;
   std::vector<double> unbounded;  ///< undamped resonances, where responses are NaN [rad/s]
+  std::vector<TransmittedForce> transmitted{};  ///< force by force
 
   /// For each pair, whether its response is zero, or only rounding in files of earlier versions:
   /// nowhere above 1e-10 of the largest response to the same force, displacements and tilts each by
@@ -94,6 +112,7 @@ struct FrequencyResponse {
             .within(valid::finite)
             .as("frequencies_rpm"),
         rows(&FrequencyResponse::pairs, "pairs+"),
+        rows(&FrequencyResponse::transmitted, "transmitted").prefixed("transmitted_").maybe(),
         column("unbounded", &FrequencyResponse::unbounded, "rad/s", "undamped resonances")
             .only(in_json)};
   }

@@ -12,6 +12,7 @@
 #include "libbase/structs/column.hpp"
 #include "libbase/structs/field.hpp"
 #include "libdyn/linear/lateral_unbalance.hpp"
+#include "libdyn/system/model.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "libfe/analyses/response_curve.hpp"
@@ -68,8 +69,10 @@ struct LateralPlane {
 
 /// A case of unbalance, and the largest vibration that this unbalance makes.
 struct LateralCase {
-  double mode_speed = 0.0;       ///< undamped critical speed of the mode that it excites [rad/s]
-  Whirl whirl = Whirl::planar;   ///< of that mode
+  std::string variant{};        ///< of the model; empty: the model itself
+  double mode_speed = 0.0;      ///< undamped critical speed of the mode that it excites [rad/s]
+  Whirl whirl = Whirl::planar;  ///< of that mode
+  UnbalancePlaces places = UnbalancePlaces::antinodes;
   double vibration = 0.0;        ///< largest at probes at operating speeds, peak to peak [m]
   int probe = 0;                 ///< number of that probe, from 0
   double vibration_speed = 0.0;  ///< speed of that vibration [rad/s]
@@ -78,8 +81,11 @@ struct LateralCase {
   static constexpr auto columns() {
     using C = LateralCase;
     return ColumnList{
+        column("variant", &C::variant, "", "variant of the model; empty: the model itself").maybe(),
         column("mode_speed", &C::mode_speed, "rad/s", "undamped critical speed of its mode"),
         column("whirl", &C::whirl, "", "sense of whirl of that mode"),
+        column("places", &C::places, "", "of its unbalance: antinodes of the mode, or an end")
+            .maybe(),
         column("vibration", &C::vibration, "m", "largest at operating speeds, peak to peak"),
         column("vibration_probe", &C::probe, "", "where it is largest")
             .within(valid::numbers_of("probes"))
@@ -104,6 +110,26 @@ struct LateralResponse {
         column("probe", &R::probe, "", "probe").within(valid::numbers_of("probes")).from_one(),
         column("peak_to_peak", &R::peak_to_peak, "m", "along the major axis")
             .along("lateral_speeds")};
+  }
+};
+
+/// Largest force of a case on a bearing, seal, link or oil film up to the trip speed.
+struct LateralForce {
+  int of_case = 0;   ///< from 0
+  std::string kind;  ///< "bearing", "seal", "link", "oil film"
+  std::string name;
+  double force = 0.0;  ///< largest in a period, without the weight [N]
+  double speed = 0.0;  ///< where it is that large [rad/s]
+
+  static constexpr auto columns() {
+    using F = LateralForce;
+    return ColumnList{column("case", &F::of_case, "", "case of unbalance")
+                          .within(valid::numbers_of("cases"))
+                          .from_one(),
+                      column("kind", &F::kind, "", "bearing, seal, link or oil film"),
+                      column("name", &F::name, "", "its name"),
+                      column("force", &F::force, "N", "largest in a period, without the weight"),
+                      column("speed", &F::speed, "rad/s", "where it is that large")};
   }
 };
 
@@ -192,13 +218,61 @@ struct LateralClearance {
   }
 };
 
+/// The logarithmic decrement with the parts that may drive a whirl put in one by one.
+struct LevelTwoStep {
+  std::string variant{};       ///< of the model; empty: the model itself
+  std::string parts;           ///< "without seals", "with seal eye", ..., each with those before it
+  double log_decrement = nan;  ///< of the least damped mode
+  double frequency = nan;      ///< of that mode [rad/s]
+
+  static constexpr auto columns() {
+    using S = LevelTwoStep;
+    return ColumnList{
+        column("parts", &S::parts, "", "what is in the model, beside what was before"),
+        column("log_decrement", &S::log_decrement, "", "of the least damped mode"),
+        column("frequency", &S::frequency, "rad/s", "of that mode"),
+        column("variant", &S::variant, "", "variant of the model; empty: the model itself")
+            .maybe()};
+  }
+};
+
+/// Level I of the model or of a variant.
+struct LevelOneState {
+  std::string variant{};       ///< of the model; empty: the model itself
+  double log_decrement = nan;  ///< with Q_A, or without any cross-coupling
+  double limit = nan;          ///< Q_0 [N/m]; 0: bears no Q; NaN: stable with any Q
+
+  static constexpr auto columns() {
+    using S = LevelOneState;
+    return ColumnList{
+        column("log_decrement", &S::log_decrement, "", "with the cross-coupled stiffness expected"),
+        column("limit", &S::limit, "N/m", "cross-coupled stiffness that the rotor bears"),
+        column("variant", &S::variant, "", "variant of the model; empty: the model itself")
+            .maybe()};
+  }
+};
+
+/// The least damped mode of the model or of a variant under a cross-coupled stiffness.
+struct CoupledState : CoupledMode {
+  std::string variant{};  ///< of the model; empty: the model itself
+
+  static constexpr auto columns() {
+    using S = CoupledState;
+    return joined(CoupledMode::columns(),
+                  ColumnList{column("variant", &S::variant, "",
+                                    "variant of the model; empty: the model itself")
+                                 .maybe()});
+  }
+};
+
 enum class LateralRule {
   separation_margin,  ///< of a peak, over the nearest operating speed
   vibration,          ///< at a probe, peak to peak [m]
   running_clearance,  ///< share of the clearance that the scaled response takes
   log_decrement,      ///< with the anticipated cross-coupling
   coupling_ratio,     ///< cross-coupling that the rotor bears over the anticipated one
-  stability_region    ///< the same ratio, for the region that speed and gas density are in
+  stability_region,   ///< the same ratio, for the region that speed and gas density are in
+  level_two           ///< log decrement with all seals of the model
 };
 constexpr auto choices(LateralRule) {
   using enum LateralRule;
@@ -207,7 +281,8 @@ constexpr auto choices(LateralRule) {
                     Choice<LateralRule>{"running clearance", running_clearance},
                     Choice<LateralRule>{"log decrement", log_decrement},
                     Choice<LateralRule>{"cross-coupling", coupling_ratio},
-                    Choice<LateralRule>{"stability region", stability_region}};
+                    Choice<LateralRule>{"stability region", stability_region},
+                    Choice<LateralRule>{"level II", level_two}};
 }
 
 enum class Verdict { passed, failed, unknown };
@@ -229,17 +304,21 @@ struct LateralCheck {
   double limit = nan;  ///< in SI, as the rule says
   Verdict verdict = Verdict::unknown;
   std::string missing{};  ///< what was not given for the check; empty: nothing
+  std::string variant{};  ///< of the model; empty: the model itself
 
   static constexpr auto columns() {
     using C = LateralCheck;
-    return ColumnList{column("rule", &C::rule, "", "what is asked for"),
-                      column("case", &C::of_case, "", "case of unbalance; 0: of none").from_one(),
-                      column("place", &C::place, "", "where"),
-                      column("speed", &C::speed, "rad/s", "at which it was found"),
-                      column("found", &C::found, "", "what was found, in SI"),
-                      column("limit", &C::limit, "", "what is asked for, in SI"),
-                      column("verdict", &C::verdict, "", "passed, failed or unknown"),
-                      column("missing", &C::missing, "", "what was not given for it").maybe()};
+    return ColumnList{
+        column("rule", &C::rule, "", "what is asked for"),
+        column("case", &C::of_case, "", "case of unbalance; 0: of none").from_one(),
+        column("place", &C::place, "", "where"),
+        column("speed", &C::speed, "rad/s", "at which it was found"),
+        column("found", &C::found, "", "what was found, in SI"),
+        column("limit", &C::limit, "", "what is asked for, in SI"),
+        column("verdict", &C::verdict, "", "passed, failed or unknown"),
+        column("missing", &C::missing, "", "what was not given for it").maybe(),
+        column("variant", &C::variant, "", "variant of the model; empty: the model itself")
+            .maybe()};
   }
 };
 
@@ -316,14 +395,42 @@ struct LateralReport {
   }
 };
 
+/// Forces on supports, and stability seal by seal; in group /lateral.
+struct LateralParts {
+  std::vector<LateralForce> forces;
+  std::vector<LevelTwoStep> level_two;
+  std::vector<LevelOneState> level_one{};  ///< the model first; empty: there are no variants
+  std::vector<CoupledState> coupled{};     ///< of all states; empty likewise
+
+  static constexpr std::string_view group = "/lateral";
+  static constexpr auto columns() {
+    using P = LateralParts;
+    return ColumnList{rows(&P::forces, "forces").prefixed("force_").maybe(),
+                      rows(&P::level_two, "level_two").prefixed("level_two_").maybe(),
+                      rows(&P::level_one, "level_one").prefixed("level_one_").maybe(),
+                      rows(&P::coupled, "coupled_states").prefixed("state_").maybe()};
+  }
+};
+
 /// The report with the analyses that it rests on.
 struct LateralStudy {
   LateralReport report;
+  LateralParts parts;
   CriticalSpeeds criticals;
   Campbell campbell;
 };
 
+/// A model in another state of the machine, such as with bearings of the least clearance.
+struct LateralVariant {
+  std::string name;
+  Model model;
+};
+
 /// Analyses a model with its oil films linearized; its own unbalance and bow are left out.
+///
+/// Variants are analyzed as the model is: their cases of unbalance, peaks, responses and checks
+/// follow those of the model. Decrement and limit of the report are those of the worst of all,
+/// critical speeds and the Campbell diagram those of the model.
 ///
 /// Unbalance excites the modes of critical speeds up to 1.5 times the maximum continuous speed.
 /// Responses go from a tenth of that maximum to 1.5 times it, or to the trip speed if that is
@@ -336,6 +443,7 @@ struct LateralStudy {
 /// @throws ModelError      if nothing carries the shaft, or there is no shaft
 /// @throws NumericalError  as the analyses
 /// @source [API617], [API684]
-LateralStudy lateral_report(const Model& model, const LateralOptions& options);
+LateralStudy lateral_report(const Model& model, const LateralOptions& options,
+                            const std::vector<LateralVariant>& variants = {});
 
 }  // namespace whirl::inline dyn

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <ranges>
 
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/resting_rotor.hpp"
+#include "libfe/assembly/properties.hpp"
 
 namespace whirl::inline dyn {
 
@@ -16,12 +19,30 @@ constexpr double standard_gravity = 9.80665;  // [m/s^2]
 /// Whether unbalances are at the same places.
 bool is_like(const std::vector<UnbalancePlane>& a, const std::vector<UnbalancePlane>& b,
              const Mesh& mesh) {
-  const auto [low, high] = std::minmax_element(mesh.z.begin(), mesh.z.end());
-  const double near = 0.1 * (*high - *low);
+  const double near = 0.1 * (mesh.z[mesh.left_to_right.back()] - mesh.z[mesh.left_to_right[0]]);
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [&](const UnbalancePlane& p, const UnbalancePlane& q) {
                       return std::abs(mesh.z[p.node] - mesh.z[q.node]) <= near;
                     });
+}
+
+/// The case of an overhung end, with the mode that moves this end most.
+UnbalanceCase case_of(const OverhungEnd& end, const std::vector<Critical>& excited,
+                      const Assembler& assembler, double maximum) {
+  const auto share = [&](const Critical& c) {
+    return forward_share(assembler.mesh(), assembler.at(c.speed).dofs, c.shape, end.node);
+  };
+  const Critical* mode = &excited.front();
+  double largest = share(*mode);
+  for (const Critical& c : excited | std::views::drop(1)) {
+    const double own = share(c);
+    if (!(own > largest)) continue;
+    mode = &c;
+    largest = own;
+  }
+  return {*mode,
+          UnbalancePlaces::overhung_end,
+          {{end.node, analysis_unbalance(end.mass, maximum), 0.0}}};
 }
 
 }  // namespace
@@ -69,20 +90,50 @@ std::vector<UnbalancePlane> unbalance_planes(const std::vector<Antinode>& antino
   return planes;
 }
 
+std::vector<OverhungEnd> overhung_ends(const Structure& structure, const Mesh& mesh,
+                                       const std::vector<Journal>& journals) {
+  std::vector<OverhungEnd> ends;
+  if (journals.empty()) return ends;
+  for (const bool is_right : {false, true}) {
+    const double journal = is_right ? journals.back().z : journals.front().z;
+    const auto reach = [&](int node) { return (is_right ? 1.0 : -1.0) * (mesh.z[node] - journal); };
+    std::optional<int> outermost;
+    for (const Disk& disk : structure.disks) {
+      const Point point = resolve(disk.at, structure, mesh);
+      if (!(disk.m > 0.0) || !(reach(point.index) > 0.0)) continue;
+      if (!outermost || reach(point.index) > reach(*outermost)) outermost = point.index;
+    }
+    if (outermost) ends.push_back({*outermost, mass_beyond(structure, mesh, journal, is_right)});
+  }
+  return ends;
+}
+
 std::vector<UnbalanceCase> unbalance_cases(const Assembler& assembler,
                                            const std::vector<Critical>& criticals,
                                            const std::vector<Journal>& journals, double maximum,
                                            double limit) {
   std::vector<UnbalanceCase> cases;
+  std::vector<Critical> excited;
   for (const Critical& critical : criticals) {
     if (critical.speed > limit && !cases.empty()) break;
+    excited.push_back(critical);
     const DofMap dofs = assembler.at(critical.speed).dofs;
     std::vector<UnbalancePlane> planes = unbalance_planes(
         antinodes(assembler.mesh(), dofs, critical.shape), journals, assembler.mesh(), maximum);
     const bool is_known = std::any_of(cases.begin(), cases.end(), [&](const UnbalanceCase& c) {
       return is_like(c.planes, planes, assembler.mesh());
     });
-    if (!planes.empty() && !is_known) cases.push_back({critical, std::move(planes)});
+    if (planes.empty() || is_known) continue;
+    cases.push_back({critical, UnbalancePlaces::antinodes, std::move(planes)});
+  }
+  if (cases.empty()) return cases;
+  for (const OverhungEnd& end : overhung_ends(assembler.structure(), assembler.mesh(), journals)) {
+    UnbalanceCase own = case_of(end, excited, assembler, maximum);
+    const bool is_known = std::any_of(cases.begin(), cases.end(), [&](const UnbalanceCase& c) {
+      return is_like(c.planes, own.planes, assembler.mesh()) &&
+             c.planes.front().moment >= own.planes.front().moment;
+    });
+    if (!is_known) cases.push_back(std::move(own));
   }
   return cases;
 }

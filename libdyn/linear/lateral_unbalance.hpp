@@ -1,9 +1,11 @@
 #pragma once
 /// Unbalance as a lateral analysis places it: at the antinodes of each mode, by the mass that the
-/// journals carry.
+/// journals carry, and at overhung disks and couplings, by the mass that hangs over.
 
+#include <array>
 #include <vector>
 
+#include "libbase/structs/field.hpp"
 #include "libfe/analyses/critical.hpp"
 #include "libfe/lateral/antinodes.hpp"
 #include "libfe/lateral/lateral_rules.hpp"
@@ -26,16 +28,36 @@ struct Journal {
 /// @throws NumericalError  as FilmEquilibrium::at
 std::vector<Journal> journals_of(const Model& model, const Assembler& assembler, double Omega);
 
-/// Unbalance at an antinode.
+/// Where a case of unbalance has its unbalance.
+enum class UnbalancePlaces { antinodes, overhung_end };
+constexpr auto choices(UnbalancePlaces) {
+  using enum UnbalancePlaces;
+  return std::array{Choice<UnbalancePlaces>{"antinodes", antinodes},
+                    Choice<UnbalancePlaces>{"overhung end", overhung_end}};
+}
+
+/// Unbalance at a node.
 struct UnbalancePlane {
   int node = 0;         ///< from 0
   double moment = 0.0;  ///< [kg.m]
   double phase = 0.0;   ///< 0, or pi where the mode moves against the first antinode [rad]
 };
 
+/// What hangs over beside the outermost journal of a side: an impeller, a coupling.
+struct OverhungEnd {
+  int node = 0;       ///< of its outermost disk, from 0
+  double mass = 0.0;  ///< of shaft and disks beyond the journal [kg]
+};
+
+/// Ends of the shaft with a disk beyond the outermost journal, left to right.
+/// @param journals  left to right
+std::vector<OverhungEnd> overhung_ends(const Structure& structure, const Mesh& mesh,
+                                       const std::vector<Journal>& journals);
+
 /// Unbalance that excites a mode.
 struct UnbalanceCase {
-  Critical mode;
+  Critical mode;  ///< of an overhung end the mode that moves it most
+  UnbalancePlaces places = UnbalancePlaces::antinodes;
   std::vector<UnbalancePlane> planes;
 };
 
@@ -53,7 +75,9 @@ std::vector<UnbalancePlane> unbalance_planes(const std::vector<Antinode>& antino
 
 /// Unbalances for every undamped critical speed up to a limit, and for the lowest one at least.
 /// An unbalance at the places of an earlier one is left out, as of a mode that is critical once
-/// along x and once along y: with as many antinodes, each within a tenth of the shaft.
+/// along x and once along y: with as many antinodes, each within a tenth of the shaft. Behind them
+/// those of overhung ends, each with twice the residual unbalance that is allowed for the mass that
+/// hangs over; one that a case has within a tenth of the shaft, alone and not smaller, is left out.
 std::vector<UnbalanceCase> unbalance_cases(const Assembler& assembler,
                                            const std::vector<Critical>& criticals,
                                            const std::vector<Journal>& journals, double maximum,

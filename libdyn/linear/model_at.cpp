@@ -10,14 +10,17 @@ namespace whirl::inline dyn {
 
 namespace {
 
-/// Places of the nodes from left to right, 0 to 1.
+/// Places of the nodes shaft by shaft from left to right, 0 to 1 on the first shaft, 2 to 3 on the
+/// second one, and so on.
 std::vector<double> places_of(const Mesh& mesh) {
   std::vector<double> places;
-  const std::vector<int>& order = mesh.left_to_right;
-  if (order.empty()) return places;
-  const auto z = [&](int node) { return mesh.z[static_cast<std::size_t>(node)]; };
-  const double from = z(order.front()), length = z(order.back()) - from;
-  for (const int node : order) places.push_back((z(node) - from) / length);
+  double first = 0.0;
+  for (const std::vector<int>& line : mesh.lines()) {
+    const auto z = [&](int node) { return mesh.z[static_cast<std::size_t>(node)]; };
+    const double from = z(line.front()), length = z(line.back()) - from;
+    for (const int node : line) places.push_back(first + (z(node) - from) / length);
+    first += 2.0;
+  }
   return places;
 }
 

@@ -59,6 +59,10 @@ struct StaticStudy {
                       rows(
                           [](const S& s) -> const auto& { return s.at_rest.bearings; }, "bearings"),
                       rows(
+                          [](const S& s) -> const auto& { return s.at_rest.links; }, "links")
+                          .maybe()
+                          .only(Written::in_json),
+                      rows(
                           [](const S& s) -> const auto& { return s.on_films.films; }, "films")
                           .maybe()
                           .only(Written::in_json),

@@ -10,6 +10,7 @@
 #include "libbase/system/memory.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/analyses/modes.hpp"
+#include "libfe/lateral/lateral_rules.hpp"
 
 namespace whirl::inline dyn {
 
@@ -135,6 +136,11 @@ void add_forced(const std::vector<NamedPoint>& stations, const Assembler& assemb
       of.minor = std::move(at.minor);
       study.forced.push_back(std::move(of));
     }
+    for (BearingResponse& at : bearing_responses(assembler, load, study.speeds)) {
+      ForcedBearing of{std::move(at), load.label(), {}, {}};
+      (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
+      study.forced_bearings.push_back(std::move(of));
+    }
     const std::vector<CVec> told = readings_of(found, assembler);
     for (std::size_t i = 0; i < told.size(); ++i) {
       ForcedReading of{assembler.structure().probes[i], {}, {}, {}, told[i]};
@@ -187,7 +193,31 @@ void add_probes(const Assembler& assembler, const ResponseCurve& curve,
   }
 }
 
+/// @param asked  the response at the speeds of the study
+void add_bearings(const Assembler& assembler, const ResponseCurve& curve,
+                  const UnbalanceResponse& asked, UnbalanceStudy& study) {
+  study.bearings = bearing_responses(assembler, asked);
+  if (study.curve_speeds.empty()) return;
+  const std::vector<BearingResponse> curves = bearing_responses(assembler, curve.response);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    BearingResponse& of = study.bearings[i];
+    of.curve_x = curves[i].x, of.curve_y = curves[i].y;
+    if (curves[i].largest > of.largest) {
+      of.largest = curves[i].largest, of.largest_at = curves[i].largest_at;
+    }
+  }
+}
+
 }  // namespace
+
+std::optional<SeparationMargin> machine_margin(const Model& model, const ResponsePeak& peak) {
+  const MachineSpeeds& machine = model.machine;
+  if (machine.minimum > 0.0 && machine.maximum > 0.0) {
+    return separation_margin(peak, OperatingRange{machine.minimum, machine.maximum, machine.trip});
+  }
+  if (!model.has_speed || !(model.speed > 0.0)) return {};
+  return separation_margin(peak, model.speed);
+}
 
 std::optional<std::string> StationPeak::side() const {
   if (!separation) return {};
@@ -225,12 +255,11 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
   if (options.has_given_speeds) add_curves(curve.response, study);
   for (const ResponsePeak& peak : curve.peaks) {
     const StationResponse& at = study.stations[static_cast<std::size_t>(peak.row)];
-    StationPeak of{peak, at.node, at.name, {}};
-    if (model.has_speed && model.speed > 0.0) of.separation = separation_margin(peak, model.speed);
-    study.peaks.push_back(std::move(of));
+    study.peaks.push_back({peak, at.node, at.name, machine_margin(model, peak)});
   }
   add_probes(assembler, curve, rows, study);
   if (!options.tells_all) return study;
+  add_bearings(assembler, curve, rows, study);
   add_forced(options.stations, assembler, points, study);
   study.clearances = clearance_uses(model, assembler, curve.response.speeds);
   return study;

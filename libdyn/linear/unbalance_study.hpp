@@ -8,6 +8,7 @@
 
 #include "libbase/failure.hpp"
 #include "libbase/structs/column.hpp"
+#include "libdyn/linear/bearing_response.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/stations.hpp"
@@ -87,6 +88,23 @@ struct ForcedResponse {
         column("minor", &F::minor, "m", "minor semi-axis, > 0 forward").along("speeds"),
         column("x", &F::x, "m", "complex amplitude of x").along("speeds"),
         column("y", &F::y, "m", "complex amplitude of y").along("speeds")};
+  }
+};
+
+/// Forces on bearings, seals, links and oil films under forces of another frequency.
+struct ForcedBearing : BearingResponse {
+  std::string force_label;          ///< "2x", "40 Hz"
+  std::optional<double> order;      ///< of the speed
+  std::optional<double> frequency;  ///< of its own [rad/s]
+
+  static constexpr auto columns() {
+    using enum Written;
+    using F = ForcedBearing;
+    return joined(
+        ColumnList{column("load", &F::force_label, "", "order or frequency of the load"),
+                   column("order", &F::order, "", "of the speed").only(in_json),
+                   column("frequency", &F::frequency, "rad/s", "of its own").only(in_json)},
+        BearingResponse::speed_columns());
   }
 };
 
@@ -175,11 +193,16 @@ struct ForcedReading : ProbeLabel {
   }
 };
 
+/// How far a peak is from the speeds of a machine: from the range that its model tells, else from
+/// the operating speed; nothing: it tells neither.
+/// @source [API617]
+std::optional<SeparationMargin> machine_margin(const Model& model, const ResponsePeak& peak);
+
 /// A peak of the largest response, and how far it is from the operating speed.
 struct StationPeak : ResponsePeak {
   std::optional<int> node;  ///< of the station that moves most
   std::string name;
-  std::optional<SeparationMargin> separation;  ///< nothing: the model has no operating speed
+  std::optional<SeparationMargin> separation;  ///< see machine_margin
 
   std::vector<double> half_power() const { return {below, above}; }
   std::optional<double> margin() const {
@@ -208,8 +231,8 @@ struct StationPeak : ResponsePeak {
         column("half_power", &StationPeak::half_power, "rad/s", "0.707 of the peak").only(in_json),
         column("below", &StationPeak::below, "rad/s", "0.707 of the peak, below it").only(in_file),
         column("above", &StationPeak::above, "rad/s", "0.707 of the peak, above it").only(in_file),
-        column("margin", &StationPeak::margin, "", "to the operating speed").only(in_json),
-        column("side", &StationPeak::side, "", "of the operating speed").only(in_json),
+        column("margin", &StationPeak::margin, "", "to the operating speeds").only(in_json),
+        column("side", &StationPeak::side, "", "of the operating speeds").only(in_json),
         column("required_margin", &StationPeak::required_margin, "", "[API617]").only(in_json),
         column("is_kept", &StationPeak::is_kept, "", "the required margin").only(in_json)};
   }
@@ -222,13 +245,15 @@ struct UnbalanceStudy {
   std::vector<double> curve_speeds;  ///< as curves need them; empty if `speeds` are those [rad/s]
   std::vector<StationPeak> peaks;
   std::vector<ClearanceUse> clearances;
-  std::vector<double> unbounded;               ///< undamped resonances [rad/s]
-  std::vector<LargestResponse> largest;        ///< per station
-  std::vector<ForcedResponse> forced;          ///< to forces of other frequencies, force by force
-  Failure failure;                             ///< why narrow peaks may be missing
-  std::vector<ProbeResponse> probes{};         ///< of the model
-  std::vector<ProbePeak> probe_peaks{};        ///< of all probes
-  std::vector<ForcedReading> forced_probes{};  ///< under such forces, force by force
+  std::vector<double> unbounded;                 ///< undamped resonances [rad/s]
+  std::vector<LargestResponse> largest;          ///< per station
+  std::vector<ForcedResponse> forced;            ///< to forces of other frequencies, force by force
+  Failure failure;                               ///< why narrow peaks may be missing
+  std::vector<ProbeResponse> probes{};           ///< of the model
+  std::vector<ProbePeak> probe_peaks{};          ///< of all probes
+  std::vector<ForcedReading> forced_probes{};    ///< under such forces, force by force
+  std::vector<BearingResponse> bearings{};       ///< forces on bearings, seals, links, oil films
+  std::vector<ForcedBearing> forced_bearings{};  ///< likewise under forces of other frequencies
 
   static constexpr std::string_view group = "/unbalance";
   static constexpr auto columns() {
@@ -258,6 +283,10 @@ struct UnbalanceStudy {
             .maybe()
             .only(in_file),
         rows(&UnbalanceStudy::forced_probes, "forced_probes").maybe().only(in_json),
+        rows(&UnbalanceStudy::bearings, "bearings").prefixed("bearing_").maybe(),
+        rows(&UnbalanceStudy::forced_bearings, "forced_bearings")
+            .prefixed("forced_bearing_")
+            .maybe(),
         rows(&UnbalanceStudy::clearances, "clearances").only(in_json),
         column("unbounded", &UnbalanceStudy::unbounded, "rad/s", "undamped resonances")
             .only(in_json)};

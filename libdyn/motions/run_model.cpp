@@ -8,6 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/system/memory.hpp"
+#include "libdyn/motions/late_loads.hpp"
 #include "libdyn/system/model.hpp"
 
 namespace whirl::inline dyn {
@@ -40,8 +41,11 @@ Run run_model(const Model& model, const RunOptions& options,
   Scene scene = make_scene(model);
   simulated.method = method_for(scene.contacts, options.method);
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, options.stations);
-  // a probe takes no more than a station
-  const std::size_t written_stations = stations.size() + model.structure.probes.size();
+  const Structure& s = model.structure;
+  const std::size_t supports =
+      s.bearings.size() + s.seals.size() + s.links.size() + model.films.size();
+  // a probe or the force on a support takes no more than a station
+  const std::size_t written_stations = stations.size() + s.probes.size() + supports;
   const double bytes = bytes_of_sample(scene.contacts.coordinates(), model.contacts.size(),
                                        options.is_written ? written_stations : 0);
   require_memory(
@@ -67,9 +71,17 @@ Run run_model(const Model& model, const RunOptions& options,
     if (!asked) asked = now;
     return now - *asked > patience;
   };
+  const SupportLoads loads(model, scene);
+  const LateLoads late(model, scene);
+  simulated.supports = &loads;
+  simulated.stages = late.stages();
   Simulation simulation = simulate(scene, start, simulated);
-  Run run{std::move(scene), std::move(simulation), std::move(stations),
-          std::string(name_of_method(simulated.method)), nullptr};
+  Run run{std::move(scene),
+          std::move(simulation),
+          std::move(stations),
+          std::string(name_of_method(simulated.method)),
+          nullptr,
+          loads.parts()};
   if (run.has_motion()) {
     run.spectra = std::make_shared<const ResponseSpectra>(run.scene, run.simulation.recording);
   }

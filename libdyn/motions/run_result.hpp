@@ -11,6 +11,8 @@
 #include "libbase/structs/column.hpp"
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
+#include "libdyn/motions/touches.hpp"
+#include "libdyn/system/clearance.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/stations.hpp"
@@ -24,6 +26,7 @@ struct Run {
   std::vector<NamedPoint> stations;
   std::string method;
   std::shared_ptr<const ResponseSpectra> spectra;  ///< null without a motion
+  std::vector<SupportLoads::Part> supports{};      ///< of the forces in the recording
   bool has_motion() const { return simulation.recording.revolutions > 0; }
 };
 
@@ -38,6 +41,7 @@ Vec reading_of(const Run& run, const Probe& probe);
 struct ContactShare : ContactDoing {
   std::string name;
   double mean_slip = 0.0;  ///< [m/s]
+  FrictionLoad rubbing{};
 
   static constexpr auto columns() {
     return ColumnList{
@@ -48,7 +52,27 @@ struct ContactShare : ContactDoing {
         column("max_normal", &ContactShare::max_normal, "N", "largest normal force"),
         column("max_tangential", &ContactShare::max_tangential, "N", "largest friction force"),
         column("sticking", &ContactShare::sticking, "", "share of time sticking"),
-        column("mean_slip", &ContactShare::mean_slip, "m/s", "mean slip velocity in touch")};
+        column("mean_slip", &ContactShare::mean_slip, "m/s", "mean slip velocity in touch"),
+        column(
+            "friction_energy", [](auto& c) -> auto& { return c.rubbing.energy; }, "J",
+            "heat of friction")
+            .maybe(),
+        column(
+            "mean_power", [](auto& c) -> auto& { return c.rubbing.mean_power; }, "W",
+            "mean power of friction")
+            .maybe(),
+        column(
+            "max_power", [](auto& c) -> auto& { return c.rubbing.max_power; }, "W",
+            "largest power of friction")
+            .maybe(),
+        column(
+            "mean_torque", [](auto& c) -> auto& { return c.rubbing.mean_torque; }, "N.m",
+            "mean moment of friction about the axis")
+            .maybe(),
+        column(
+            "max_torque", [](auto& c) -> auto& { return c.rubbing.max_torque; }, "N.m",
+            "largest moment of friction about the axis")
+            .maybe()};
   }
 };
 
@@ -61,7 +85,9 @@ struct ContactShares {
     return ColumnList{rows(&ContactShares::contacts, "contacts+").maybe()};
   }
 };
-ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions);
+/// @param rubbing  of the contacts; empty: not told
+ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions,
+                             const std::vector<FrictionLoad>& rubbing = {});
 
 /// Where a motion ended, and where other motions may begin; in group /trajectory.
 struct MotionEnd {
@@ -163,6 +189,21 @@ struct ProbeSignal : ProbeLabel {
   }
 };
 
+/// Force of the rotor on a bearing, seal, link or oil film over a motion.
+struct SupportForce {
+  std::string kind, name;
+  Vec x, y;  ///< per sample [N]
+
+  static constexpr auto columns() {
+    using S = SupportForce;
+    return ColumnList{
+        column("name", &S::name, "", "bearing, seal, link or oil film").axis(),
+        column("kind", &S::kind, "", "which of these"),
+        column("force_x", &S::x, "N", "force of the rotor on it along x").along("samples"),
+        column("force_y", &S::y, "N", "force of the rotor on it along y").along("samples")};
+  }
+};
+
 /// A motion as it was recorded; in group /trajectory.
 struct MotionRecord {
   Vec time;         ///< since the start [s]
@@ -171,6 +212,8 @@ struct MotionRecord {
   std::vector<StationMotion> stations;
   std::vector<ProbeSignal> probes;  ///< of the model
   Mat normal, friction;             ///< contacts x samples [N]
+  std::vector<SupportForce> supports{};
+  std::vector<double> begins{};  ///< of loads [s]
 
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
@@ -192,6 +235,11 @@ struct MotionRecord {
             .maybe(),
         column("friction_force", &MotionRecord::friction, "N", "friction force along the tangent")
             .along("/contacts/name samples")
+            .maybe(),
+        rows(&MotionRecord::supports, "supports").prefixed("support_").maybe(),
+        column("load_begin", &MotionRecord::begins, "s", "time at which a load begins")
+            .along("begins+")
+            .within(valid::finite)
             .maybe()};
   }
 };
@@ -278,7 +326,10 @@ struct RunSummary {
   ReductionFacts reduction;
   RunCost cost;
   Failure failure;
-  std::vector<ProbeSummary> probes{};  ///< of a run with a motion
+  std::vector<ProbeSummary> probes{};   ///< of a run with a motion
+  std::vector<SupportLoad> supports{};  ///< likewise
+  std::vector<double> begins{};         ///< of loads in the recording, since the start [s]
+  std::vector<ContactTouch> touches{};  ///< the last ones of all contacts, in their order
 
   static constexpr auto columns() {
     using S = RunSummary;
@@ -288,10 +339,36 @@ struct RunSummary {
         column("reduction", &S::reduction, "", "how the rotor was reduced"),
         column("cost", &S::cost, "", "what the integration took"),
         rows(&S::probes, "probes").only(Written::in_json).maybe(),
+        rows(&S::supports, "supports").only(Written::in_json).maybe(),
+        column("load_begins", &S::begins, "s", "times at which loads begin")
+            .only(Written::in_json)
+            .maybe(),
+        rows(&S::touches, "touches").only(Written::in_json).maybe(),
         column("failure", &S::failure, "", "why it ended early").only(Written::in_json).maybe()};
   }
 };
 RunSummary run_summary(const Run& run);
+
+/// What a recorded motion leaves of each running clearance, in the order of the model.
+std::vector<RunningClearance> clearances_of(const Model& model, const Run& run);
+
+/// Forces that a motion exerts, over the revolutions after a state; group /loads.
+struct MotionLoads {
+  std::vector<SupportLoad> supports;
+  std::vector<ContactShare> contacts;
+
+  static constexpr std::string_view group = "/loads";
+  static constexpr auto columns() {
+    return ColumnList{rows(&MotionLoads::supports, "supports").prefixed("support_").maybe(),
+                      rows(&MotionLoads::contacts, "contacts").prefixed("contact_").maybe()};
+  }
+};
+/// Forces on supports of a motion that was recorded, in short.
+std::vector<SupportLoad> support_loads(const MotionRecord& motion, int samples_per_revolution);
+
+/// @param recording  of the scene, with forces on supports
+MotionLoads motion_loads(const std::vector<SupportLoads::Part>& supports,
+                         const Recording& recording);
 
 /// A circle that turns with a signed frequency.
 struct FrequencyPeak {

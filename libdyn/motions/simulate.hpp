@@ -5,10 +5,18 @@
 #include <numbers>
 
 #include "libdyn/methods/methods.hpp"
+#include "libdyn/motions/support_loads.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
 
 namespace whirl::inline dyn {
+
+/// A rotor up to an instant, before some of its loads begin.
+struct MotionStage {
+  const ContactSystem* system = nullptr;   ///< of the scene's coordinates and contacts
+  const SupportLoads* supports = nullptr;  ///< null: forces on supports are not recorded
+  double until = 0.0;                      ///< revolutions after the start of the recording
+};
 
 struct SimulationOptions {
   long revolutions = 512;  ///< recorded
@@ -16,6 +24,9 @@ struct SimulationOptions {
   int samples = 64;        ///< per revolution, at equal phases from 0
   AnyMethod method;
   IntegrationOptions integration;
+  const SupportLoads* supports = nullptr;  ///< null: forces on supports are not recorded
+  /// Before the scene itself, ascending; the first one counts before the recording, too.
+  std::vector<MotionStage> stages{};
   /// Called once per revolution with the number done; returns false to stop. May be empty.
   std::function<bool(long)> progress;
   /// Asked at every step whether to stop. May be empty.
@@ -31,7 +42,10 @@ struct Recording {
   Vec time;                   ///< of every sample, since the start [s]
   Mat eta;                    ///< n x (revolutions * samples)
   Mat normal, friction;       ///< contact forces, contacts x samples [N]; friction signed along t
+  Mat on_supports{};          ///< forces on the parts of SupportLoads, 2 parts x samples [N]
+  std::vector<double> begins{};  ///< of loads, the ends of stages, since the start [s]
   std::vector<ContactMeasure> contacts;
+  std::vector<FrictionLoad> rubbing{};  ///< of the contacts; empty: not told
 
   /// Angle of the rotor at a sample, from the start of the first revolution [rad].
   double angle(Eigen::Index sample) const {
@@ -48,7 +62,15 @@ struct Simulation {
   double wall = 0.0;        ///< duration of the integration [s]
 };
 
-/// Integrates a scene from a state. What was recorded before a failure or a stop is kept.
+/// Integrates a scene from a state, and the stages before it. The end of a stage is an instant of
+/// the dense output of its step; contacts are classified anew there, since forces may have jumped.
+/// What was recorded before a failure or a stop is kept.
 Simulation simulate(const Scene& scene, MotionState start, const SimulationOptions& options);
+
+/// The motion that goes on from a state, by the method that suits the contacts. States of contacts
+/// that are left out are those of a motion whose past is not known.
+/// @param supports  null: forces on supports are not recorded
+Recording recorded_from(const Scene& scene, MotionState start, long revolutions,
+                        const SupportLoads* supports = nullptr);
 
 }  // namespace whirl::inline dyn

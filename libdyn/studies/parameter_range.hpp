@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "libdyn/branches/continuation.hpp"
@@ -29,6 +30,7 @@ struct ParameterRange {
   double largest_step = 0.0;  ///< 0: a hundredth of the range
   double direction = 1.0;     ///< of the walk, 1 or -1; of two walks, that of the second
   bool goes_both = false;     ///< branches are walked both ways from the first value
+  std::string unit{};         ///< of its values
 
   /// Directions of the walks, in the order in which they are done.
   std::vector<double> directions() const {
@@ -40,7 +42,8 @@ struct ParameterRange {
             .high = high,
             .first = first,
             .direction = towards,
-            .largest_step = largest_step};
+            .largest_step = largest_step,
+            .unit = unit};
   }
 };
 

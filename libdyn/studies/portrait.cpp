@@ -7,6 +7,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
+#include "libdyn/motions/support_loads.hpp"
 
 namespace whirl::inline dyn {
 
@@ -74,6 +75,15 @@ void add_probe_readings(const Scene& scene, const Mat& eta, const ResponseSpectr
   }
 }
 
+/// @param forces  x and y on each part in turn: rows, a column per sample
+void add_support_forces(const Mat& forces, Portrait& to) {
+  const auto even = Eigen::seq(0, forces.rows() - 2, 2), odd = Eigen::seq(1, forces.rows() - 1, 2);
+  const Mat x = forces(even, Eigen::all), y = forces(odd, Eigen::all);
+  to.support_largest = (x.array().square() + y.array().square()).rowwise().maxCoeff().sqrt();
+  to.support_mean_x = x.rowwise().mean();
+  to.support_mean_y = y.rowwise().mean();
+}
+
 }  // namespace
 
 Vec portrait_orders(long spectrum_revolutions) {
@@ -90,8 +100,8 @@ Vec portrait_sectors() {
   return Vec::LinSpaced(sectors, 0.5 * width, (sectors - 0.5) * width);
 }
 
-Portrait portrait_of(const Scene& scene, const Classification& found, long sections,
-                     double tolerance, const PortraitOptions& options) {
+Portrait portrait_of(const Model& model, const Scene& scene, const Classification& found,
+                     long sections, double tolerance, const PortraitOptions& options) {
   Portrait portrait;
   const Eigen::Index n = std::ssize(options.stations);
   portrait.poincare_x = portrait.poincare_y =
@@ -110,6 +120,8 @@ Portrait portrait_of(const Scene& scene, const Classification& found, long secti
       .revolutions = options.spectrum_revolutions, .discard = 0, .samples = samples};
   how.method = Taylor{};
   how.integration.tolerance = tolerance;
+  const SupportLoads supports(model, scene);
+  how.supports = &supports;
   const Simulation seen = simulate(scene, found.end, how);
   if (seen.recording.revolutions < options.spectrum_revolutions) return portrait;
   const ResponseSpectra spectra(scene, seen.recording);
@@ -127,6 +139,7 @@ Portrait portrait_of(const Scene& scene, const Classification& found, long secti
   }
   add_probe_readings(scene, seen.recording.eta, spectra, lines, portrait);
   portrait.contact_angle = contact_angles(scene.contacts, seen.recording);
+  add_support_forces(seen.recording.on_supports, portrait);
   return portrait;
 }
 

@@ -31,6 +31,8 @@ struct Portrait {
   Vec probe_mean, probe_peak_to_peak;  ///< of the readings of each probe [m]
   /// Peak to peak of what turns with an order of the speed: probes x probe_orders [m].
   Mat probe_spectrum;
+  Vec support_largest;                 ///< force on each part of SupportLoads [N]
+  Vec support_mean_x, support_mean_y;  ///< of these forces [N]
 };
 
 /// Orders of a portrait's spectra: signed frequency over speed, forward > 0.
@@ -42,10 +44,11 @@ Vec portrait_sectors();
 
 /// Looks at a motion, from a state on it.
 ///
+/// @param model      of the scene
 /// @param found      with its last sections
 /// @param sections   of the portrait; NaN beyond those that were found
 /// @param tolerance  of a step
-Portrait portrait_of(const Scene& scene, const Classification& found, long sections,
-                     double tolerance, const PortraitOptions& options);
+Portrait portrait_of(const Model& model, const Scene& scene, const Classification& found,
+                     long sections, double tolerance, const PortraitOptions& options);
 
 }  // namespace whirl::inline dyn

@@ -31,9 +31,10 @@ void travel(Bytes& bytes, Is<ClassifiedMotion> auto& motion) {
 template <class Bytes>
 void travel(Bytes& bytes, Is<Portrait> auto& portrait) {
   auto& [poincare_x, poincare_y, max_radius, spectrum, contact_angle, probe_sections, probe_mean,
-         probe_peak_to_peak, probe_spectrum] = portrait;
+         probe_peak_to_peak, probe_spectrum, support_largest, support_mean_x, support_mean_y] =
+      portrait;
   bytes(poincare_x, poincare_y, max_radius, spectrum, contact_angle, probe_sections, probe_mean,
-        probe_peak_to_peak, probe_spectrum);
+        probe_peak_to_peak, probe_spectrum, support_largest, support_mean_x, support_mean_y);
 }
 
 }  // namespace whirl::inline dyn

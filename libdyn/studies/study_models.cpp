@@ -29,12 +29,13 @@ StudyMotion begin_motion(const StudyModels& models, std::span<const double> valu
                          const FullState* from, long revolution) {
   StudyMotion motion;
   try {
-    const StudyMember member = models.member(values);
+    StudyMember member = models.member(values);
     motion.scene = member.scene;
     motion.subject.system = &motion.scene->contacts;
     MotionState& state = motion.subject.found.end;
     state = models.start(member, from);
     if (from && motion.scene->contacts.repeats_after() != 1) state.revolution = revolution;
+    motion.model = std::make_shared<const Model>(std::move(member.model));
   } catch (const NumericalError& error) {
     motion.failure = error.what();
   }

@@ -38,6 +38,7 @@ StudyModels study_models(std::function<Model(std::span<const double> values)> mo
 
 /// A motion at one point of a study.
 struct StudyMotion {
+  std::shared_ptr<const Model> model{};  ///< null if there is no scene
   std::shared_ptr<const Scene> scene{};  ///< null if there is no scene
   ClassifyCandidate subject{};
   Failure failure{};  ///< why there is no scene, or no start

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "libbase/structs/names.hpp"
+#include "libdyn/motions/support_loads.hpp"
 #include "libdyn/studies/point_runner.hpp"
 #include "libdyn/studies/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -38,7 +40,9 @@ void restore_scenes(Settled& piece, const std::vector<std::size_t>& points,
   for (std::size_t i = 0; i < points.size(); ++i) {
     StudyMotion& motion = piece.motions[i];
     if (motion.scene || motion.failure) continue;
-    motion.scene = models.member({&options.values[value_of(points[i], options)], 1}).scene;
+    StudyMember member = models.member({&options.values[value_of(points[i], options)], 1});
+    motion.scene = member.scene;
+    motion.model = std::make_shared<const Model>(std::move(member.model));
     motion.subject.system = &motion.scene->contacts;
   }
 }
@@ -118,8 +122,9 @@ std::vector<SweepPoint> finish(Settled& piece, const SweepOptions& options) {
     point.motion = classified(motion);
     if (!motion.is_good()) continue;
     point.end = piece.ends[i];
-    point.portrait = portrait_of(*motion.scene, motion.subject.found, options.classify.sections,
-                                 options.classify.tolerance, options.portrait);
+    point.portrait =
+        portrait_of(*motion.model, *motion.scene, motion.subject.found, options.classify.sections,
+                    options.classify.tolerance, options.portrait);
   }
   return points;
 }
@@ -169,6 +174,7 @@ bool SweepResult::leaves_out(std::string_view column) const {
     }
     return true;
   }
+  if (column.starts_with("support")) return spectrum_revolutions == 0 || supports.empty();
   if (column == "contact_angle") return spectrum_revolutions == 0 || system.contacts.empty();
   return spectrum_revolutions == 0 && (column == "max_radius" || column == "spectrum");
 }
@@ -186,6 +192,7 @@ std::vector<SweepEntry> SweepWay::entries() const {
     const Portrait& seen = p->portrait;
     entry.probe_mean.assign(seen.probe_mean.begin(), seen.probe_mean.end());
     entry.probe_peak_to_peak.assign(seen.probe_peak_to_peak.begin(), seen.probe_peak_to_peak.end());
+    entry.support_largest.assign(seen.support_largest.begin(), seen.support_largest.end());
     if (const Mat& x = p->portrait.poincare_x; x.rows() > 0) {
       std::copy_if(x.row(0).begin(), x.row(0).end(), std::back_inserter(entry.poincare),
                    [](double section) { return std::isfinite(section); });
@@ -240,6 +247,10 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
   const StudyMember first = models.member({options.values.data(), 1});
   result.system = study_system(*first.scene, options.classify);
   result.probes = ProbeLabels(first.scene->assembler.structure().probes);
+  result.supports.clear();
+  for (const auto& part : SupportLoads::parts_of(first.model, first.scene->assembler)) {
+    result.supports.push_back(named(part.kind, part.name));
+  }
   result.start = options.start;
   result.sections = options.classify.sections;
   result.spectrum_revolutions = options.portrait.spectrum_revolutions;

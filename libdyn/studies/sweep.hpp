@@ -91,6 +91,21 @@ struct SweepPoint {
             "probe_spectrum", [](auto& p) -> auto& { return p.portrait.probe_spectrum; }, "m",
             "peak to peak of what a probe reads at an order of the speed")
             .along("probes probe_orders")
+            .maybe(),
+        column(
+            "support_largest", [](auto& p) -> auto& { return p.portrait.support_largest; }, "N",
+            "largest force of the rotor on a support, with its mean")
+            .along("supports")
+            .maybe(),
+        column(
+            "support_mean_x", [](auto& p) -> auto& { return p.portrait.support_mean_x; }, "N",
+            "mean of the force along x")
+            .along("supports")
+            .maybe(),
+        column(
+            "support_mean_y", [](auto& p) -> auto& { return p.portrait.support_mean_y; }, "N",
+            "mean of the force along y")
+            .along("supports")
             .maybe()};
   }
 };
@@ -114,6 +129,7 @@ struct SweepResult {
   SweepStart start = SweepStart::carried;
   std::vector<std::string> stations{};  ///< of the portraits
   ProbeLabels probes{};                 ///< of the model
+  std::vector<std::string> supports{};  ///< "bearing left", as SupportLoads has them
   long sections = 0, spectrum_revolutions = 0;
   /// Points of one way after the other, each in the order of the values.
   PointRows<SweepPoint> points{};
@@ -139,11 +155,15 @@ struct SweepResult {
                        .axis("sectors")
                        .maybe()},
         probe_label_columns(),
-        ColumnList{column("probe_order", &C::probe_orders, "", "frequency over speed")
-                       .axis("probe_orders+")
-                       .within(valid::finite)
-                       .maybe(),
-                   rows(&C::points, "point")});
+        ColumnList{
+            column("probe_order", &C::probe_orders, "", "frequency over speed")
+                .axis("probe_orders+")
+                .within(valid::finite)
+                .maybe(),
+            column("support", &C::supports, "", "bearing, seal, link or oil film with its name")
+                .axis("supports+")
+                .maybe(),
+            rows(&C::points, "point")});
   }
 };
 
@@ -154,6 +174,7 @@ struct SweepEntry : MotionSummary {
   double impacts_per_rev = 0.0;
   /// Mean and peak to peak of the readings of the probes [m]; empty without a spectrum.
   std::vector<double> probe_mean{}, probe_peak_to_peak{};
+  std::vector<double> support_largest{};  ///< force on each support [N]; empty without a spectrum
 
   static constexpr auto columns() {
     using enum Written;
@@ -166,7 +187,8 @@ struct SweepEntry : MotionSummary {
         column("lyapunov_max", &E::largest_exponent, "", "largest exponent"),
         column("impacts_per_rev", &E::impacts_per_rev, "", "impacts per revolution"),
         column("probe_mean", &E::probe_mean, "m", "of what the probes read").only(in_json).maybe(),
-        column("probe_peak_to_peak", &E::probe_peak_to_peak, "m", "likewise")
+        column("probe_peak_to_peak", &E::probe_peak_to_peak, "m", "likewise").only(in_json).maybe(),
+        column("support_largest", &E::support_largest, "N", "force on each support")
             .only(in_json)
             .maybe()};
   }

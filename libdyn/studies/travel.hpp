@@ -58,11 +58,11 @@ void travel(Bytes& bytes, Is<Classification> auto& found) {
         outcome, failure);
 }
 
-/// A motion without its scene, which the other process makes again, and without what is remembered
-/// of that scene.
+/// A motion without its model and scene, which the other process makes again, and without what is
+/// remembered of that scene.
 template <class Bytes>
 void travel(Bytes& bytes, Is<StudyMotion> auto& motion) {
-  auto& [scene, subject, failure] = motion;
+  auto& [model, scene, subject, failure] = motion;
   bytes(subject.found, failure);
 }
 

@@ -50,7 +50,7 @@ struct RunningClearance {
     using R = RunningClearance;
     return ColumnList{column("name", &R::name, "", "whose clearance it is"),
                       column("clearance", &R::clearance, "m", "clearance"),
-                      column("distance", &R::distance, "m", "of the rotor at rest from its middle"),
+                      column("distance", &R::distance, "m", "of the rotor from its middle"),
                       column("left", &R::left, "m", "what is left of it")};
   }
 };

@@ -21,11 +21,30 @@ double top(double a, double b, double c) {
 }  // namespace
 
 ContactMeter::ContactMeter(const ContactSystem& system)
-    : system_(system),
+    : system_(&system),
       sums_(static_cast<std::size_t>(system.owners())),
       was_apart_(system.contacts().size()) {
   for (const ReducedContact& c : system.contacts()) {
     sums_[static_cast<std::size_t>(c.owner)].times.name = c.name;
+  }
+}
+
+void ContactMeter::add_heat(const Step& step, int k, const std::vector<ContactForces>& forces) {
+  const double simpson = (k == 0 || k == points ? 1.0 : k % 2 == 1 ? 4.0 : 2.0) / (3.0 * points);
+  std::vector<double> power(sums_.size()), torque(sums_.size());
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    if (!step.contacts[i].in_touch()) continue;
+    const ReducedContact& c = system_->contacts()[i];
+    const double radius = rim_radius_of(c.geometry).value_or(c.friction.radius);
+    power[static_cast<std::size_t>(c.owner)] += forces[i].friction * forces[i].slip;
+    torque[static_cast<std::size_t>(c.owner)] += forces[i].friction * radius;
+  }
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    Sum& sum = sums_[i];
+    sum.heat += simpson * step.h * power[i];
+    sum.impulse += simpson * step.h * torque[i];
+    sum.max_power = std::max(sum.max_power, power[i]);
+    sum.max_torque = std::max(sum.max_torque, std::abs(torque[i]));
   }
 }
 
@@ -36,15 +55,16 @@ void ContactMeter::add(const Step& step) {
   const auto contacts = step.contacts.size();
   std::vector<std::array<double, points + 1>> normal(contacts), friction(contacts);
   const auto sum_of = [&](std::size_t i) -> Sum& {
-    return sums_[static_cast<std::size_t>(system_.contacts()[i].owner)];
+    return sums_[static_cast<std::size_t>(system_->contacts()[i].owner)];
   };
   if (any) {
-    Vec y(system_.size());
+    Vec y(system_->size());
     std::vector<ContactForces> forces;
     for (int k = 0; k <= points; ++k) {
       const double s = static_cast<double>(k) / points;
       step.at(s, y.data());
-      system_.forces(step.instant(s), y.data(), step.contacts, forces);
+      system_->forces(step.instant(s), y.data(), step.contacts, forces);
+      add_heat(step, k, forces);
       for (std::size_t i = 0; i < contacts; ++i) {
         normal[i][static_cast<std::size_t>(k)] = forces[i].normal;
         friction[i][static_cast<std::size_t>(k)] = std::abs(forces[i].friction);
@@ -59,7 +79,7 @@ void ContactMeter::add(const Step& step) {
     if (in_touch) {
       Sum& sum = sum_of(i);
       ContactTimes& m = sum.times;
-      char& touches_already = touches[static_cast<std::size_t>(system_.contacts()[i].owner)];
+      char& touches_already = touches[static_cast<std::size_t>(system_->contacts()[i].owner)];
       if (!touches_already) m.in_touch += step.h;
       touches_already = 1;
       sum.touches += step.h;
@@ -84,6 +104,15 @@ std::vector<ContactMeasure> ContactMeter::measures() const {
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].touch_time = sums_[i].touches;
     all[i].mean_slip = sums_[i].touches > 0.0 ? sums_[i].slip / sums_[i].touches : 0.0;
+  }
+  return all;
+}
+
+std::vector<FrictionLoad> ContactMeter::friction() const {
+  std::vector<FrictionLoad> all;
+  for (const Sum& sum : sums_) {
+    const double time = time_ > 0.0 ? time_ : 1.0;
+    all.push_back({sum.heat, sum.heat / time, sum.max_power, sum.impulse / time, sum.max_torque});
   }
   return all;
 }

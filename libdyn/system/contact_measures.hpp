@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/numerics/constants.hpp"
 #include "libbase/structs/column.hpp"
 #include "libbase/structs/field.hpp"
 #include "libdyn/system/trajectory.hpp"
@@ -50,6 +51,13 @@ struct ContactMeasure {
   }
 };
 
+/// What friction at a contact does, of all of its blades; NaN: not told, as of older files.
+struct FrictionLoad {
+  double energy = nan;                         ///< that becomes heat [J]
+  double mean_power = nan, max_power = nan;    ///< [W]
+  double mean_torque = nan, max_torque = nan;  ///< about the axis of the rotor [N.m]
+};
+
 /// What a contact does in a motion.
 struct ContactDoing {
   Regime regime = Regime::none;
@@ -81,18 +89,26 @@ class ContactMeter {
   explicit ContactMeter(const ContactSystem& system);
 
   void add(const Step& step);
+  /// Goes on with the same contacts in another system.
+  void go_on_in(const ContactSystem& system) { system_ = &system; }
 
   /// Measures of all that was added.
   std::vector<ContactMeasure> measures() const;
+  /// The same of friction.
+  std::vector<FrictionLoad> friction() const;
 
  private:
   struct Sum {
     ContactTimes times;
-    double touches = 0.0;  ///< time in touch, summed over blades [s]
-    double slip = 0.0;     ///< distance slipped in that time [m]
+    double touches = 0.0;                      ///< time in touch, summed over blades [s]
+    double slip = 0.0;                         ///< distance slipped in that time [m]
+    double heat = 0.0;                         ///< of friction [J]
+    double impulse = 0.0;                      ///< of the moment of friction [N.m.s]
+    double max_power = 0.0, max_torque = 0.0;  ///< [W], [N.m]
   };
+  void add_heat(const Step& step, int k, const std::vector<ContactForces>& forces);
 
-  const ContactSystem& system_;
+  const ContactSystem* system_;
   std::vector<Sum> sums_;
   std::vector<bool> was_apart_;
   bool has_begun_ = false;

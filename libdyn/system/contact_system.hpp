@@ -219,6 +219,10 @@ std::optional<Polynomial> beyond_surface(const ReducedContact& contact, const Pa
 /// Rows of the motion that closes a contact, times its arm [m], over the coordinates of a system.
 PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs);
 
+/// Speed of `at` less that of `against`, over the speed of the first shaft: two surfaces that turn
+/// alike rub without slip.
+double slip_ratio(const Contact& contact, const Assembler& assembler);
+
 /// Takes what the force -N n - T t of a contact adds to the accelerations from them.
 void push(const ReducedContact& contact, const ContactForces& f, double T, Eigen::Ref<Vec> a);
 

@@ -48,7 +48,9 @@ PlaneRows relative_rows(Closing closing, const DofMap& dofs, const Point& at,
   return rows_of(closing, dofs, at) - rows_of(closing, dofs, against);
 }
 
-/// Speed of the rotor's surface in the slip; what turns has its own in the gap's motion.
+/// Speed of the surface of `at` past that of `against` in the slip; what turns has its own in the
+/// gap's motion.
+/// @param Omega  speed of `at` less that of `against` [rad/s]
 double rim_speed_of(const AnyGeometry& geometry, double Omega, const Friction& friction) {
   return turns(geometry) ? 0.0 : Omega * rim_radius_of(geometry).value_or(friction.radius);
 }
@@ -67,6 +69,12 @@ PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const
   const AnyGeometry geometry = geometry_of(contact);
   return arm_of(geometry) * relative_rows(closing_of(geometry), dofs, assembler.point(contact.at),
                                           assembler.point(contact.against));
+}
+
+double slip_ratio(const Contact& contact, const Assembler& assembler) {
+  // what touches is a rotor whether it says that it spins or not
+  return assembler.shaft_ratio(assembler.point(contact.at)) -
+         assembler.spin_ratio(assembler.point(contact.against));
 }
 
 /// What the equations of a reduced rotor are made with.
@@ -121,10 +129,11 @@ void ContactSystem::add_loads(const Reduction& by) {
 void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner) {
   const AnyGeometry geometry = geometry_of(c);
   assert(may_stick(geometry) || !c.friction.is_exact());
+  const double speed = slip_ratio(c, by.assembler) * Omega();
   ReducedContact r{.name = c.name,
                    .offset = c.offset,
                    .clearance = c.clearance,
-                   .rim_speed = rim_speed_of(geometry, Omega(), c.friction),
+                   .rim_speed = rim_speed_of(geometry, speed, c.friction),
                    .friction = c.friction,
                    .law = law_at(Omega(), c.law, c.friction),
                    .geometry = geometry,
@@ -145,7 +154,7 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
 }
 
 void ContactSystem::add_film(const Reduction& by, const OilFilm& film) {
-  ReducedFilm r{at_speed(film, Omega()), film.name, {}, {}};
+  ReducedFilm r{at_speed(film, Omega(), drag_ratio(film, by.assembler)), film.name, {}, {}};
   r.U = relative_rows(Closing::lateral, by.reduced.dofs, by.assembler.point(film.at),
                       by.assembler.point(film.against)) *
         by.reduced.Phi;

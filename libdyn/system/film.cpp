@@ -18,14 +18,19 @@ Vec2 place(const ReducedFilm& film, const double* y, StateLayout layout) {
 
 }  // namespace
 
-FilmAtSpeed at_speed(const OilFilm& film, double Omega) {
+double drag_ratio(const OilFilm& film, const Assembler& assembler) {
+  return assembler.spin_ratio(assembler.point(film.at)) +
+         assembler.spin_ratio(assembler.point(film.against));
+}
+
+FilmAtSpeed at_speed(const OilFilm& film, double Omega, double drag) {
   const double rate = Omega != 0.0 ? std::abs(Omega) : 2.0 * std::numbers::pi;
   return std::visit(
       [&](const auto& law) {
         return FilmAtSpeed{.offset = film.offset,
                            .clearance = film.bearing.clearance,
                            .factor = law.factor(film.bearing),
-                           .spin = law.is_dragged ? Omega / rate : 0.0,
+                           .spin = law.is_dragged ? drag * (Omega / rate) : 0.0,
                            .rate = rate,
                            .law = film.law};
       },

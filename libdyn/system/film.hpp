@@ -7,6 +7,7 @@
 #include "libbase/numerics/linalg.hpp"
 #include "libcontact/oil_film.hpp"
 #include "libdyn/system/layout.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
 
@@ -15,13 +16,18 @@ struct FilmAtSpeed {
   Vec2 offset;
   double clearance;  ///< [m]
   double factor;     ///< of the force [N.s]
-  double spin;       ///< Omega over the rate of the phase, 1 or -1; 0: no spin, or none that drags
+  double spin;       ///< that drags the oil, over the rate of the phase; 0: none
   double rate;       ///< of the phase [rad/s]
   AnyFilmLaw law;
 };
 
+/// What drags the oil of a film, over the speed of the first shaft: the sum of the speeds of both
+/// walls. Two walls that turn against each other at one speed drag none.
+double drag_ratio(const OilFilm& film, const Assembler& assembler);
+
 /// A film of a model at a speed [rad/s].
-FilmAtSpeed at_speed(const OilFilm& film, double Omega);
+/// @param drag  as drag_ratio() says
+FilmAtSpeed at_speed(const OilFilm& film, double Omega, double drag);
 
 /// An oil film in reduced coordinates eta.
 struct ReducedFilm : FilmAtSpeed {

@@ -125,7 +125,9 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
     ports = std::make_shared<const Ports>(ports_of(films, assembler, Omega));
   }
   std::vector<FilmAtSpeed> at_this_speed;
-  for (const OilFilm& film : films) at_this_speed.push_back(at_speed(film, Omega));
+  for (const OilFilm& film : films) {
+    at_this_speed.push_back(at_speed(film, Omega, drag_ratio(film, assembler)));
+  }
   const auto place = PortBalance(ports->held, std::move(at_this_speed)).find();
   if (!place) throw NumericalError(not_found_on_films(Omega));
   RotorOnFilms rotor{.Omega = Omega,
@@ -134,7 +136,8 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
                      .load = static_load(assembler, Omega)};
   rotor.system.Omega = Omega;
   for (std::size_t i = 0; i < films.size(); ++i) {
-    rotor.films.push_back(running_film(films[i], Omega, place->journals[i]));
+    rotor.films.push_back(
+        running_film(films[i], Omega, place->journals[i], drag_ratio(films[i], assembler)));
     for (const int component : {X, Y}) {
       const double force = -rotor.films.back().load(component);
       const int at = rotor.system.dofs.full_index(assembler.point(films[i].at), component);

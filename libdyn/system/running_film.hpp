@@ -93,6 +93,6 @@ struct RunningFilms {
 /// P is the loss of a film that is full all around: it is not less where a real film is not full.
 ///
 /// @source [PinkusSternlicht1961]
-RunningFilm running_film(const OilFilm& film, double Omega, const Vec2& place);
+RunningFilm running_film(const OilFilm& film, double Omega, const Vec2& place, double drag = 1.0);
 
 }  // namespace whirl::inline dyn

@@ -121,7 +121,7 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
   }
   for (const auto& [kind, list] : model.structure.connections()) {
     for (const Connection& c : list) {
-      if (coefficients(c.coefficients, model.speed).C.isZero(0.0)) continue;
+      if (assembler.coefficients_of(c, model.speed, model.speed).C.isZero(0.0)) continue;
       add_rows(others, system.dofs, assembler.point(c.from), assembler.point(c.to));
     }
   }

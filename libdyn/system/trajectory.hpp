@@ -55,6 +55,25 @@ struct Step {
     rate = v.col(v.cols() - 1);
     for (auto k = v.cols() - 2; k >= 0; --k) rate = rate * s + v.col(k);
   }
+  /// The step up to 0 < s <= 1.
+  Step first_part(double s) const {
+    Step part = *this;
+    double power = 1.0;
+    for (Eigen::Index k = 1; k < std::max(q.cols(), v.cols()); ++k) {
+      power *= s;
+      if (k < q.cols()) part.q.col(k) *= power;
+      if (k < v.cols()) part.v.col(k) *= power;
+    }
+    part.h *= s;
+    part.turn_ *= s;
+    return part;
+  }
+  /// Acceleration of the coordinates at 0 <= s <= 1, the slope of the velocity.
+  void acceleration(double s, Vec& a) const {
+    a.setZero(v.rows());
+    for (auto k = v.cols() - 1; k >= 1; --k) a = a * s + static_cast<double>(k) * v.col(k);
+    a /= h;
+  }
 
  private:
   double turn_ = 0.0;

@@ -61,6 +61,24 @@ class BeamIntegrals {
     return sum;
   }
 
+  /// Nominal stresses of the first beam under a moment and a shear force of all of them [Pa].
+  struct Stresses {
+    double bending, shear;
+  };
+  Stresses stresses(double s, double moment, double force) const {
+    double bending = 0.0, shear = 0.0;  // stiffness of all
+    for (const Beam& beam : beams_) {
+      if (beam.carries == Carries::mass) continue;
+      bending += beam.material.E * section(beam, s).I();
+      shear += beam.material.G * section(beam, s).A();
+    }
+    const Beam& shaft = beams_.front();
+    const double r = 0.5 * section(shaft, s).outer, q = 0.5 * section(shaft, s).inner;
+    const double mean = force * shaft.material.G / shear;
+    return {moment * shaft.material.E * r / bending,
+            4.0 / 3.0 * mean * (r * r + r * q + q * q) / (r * r + q * q)};
+  }
+
  private:
   /// E I and kappa G A of all beams; without shear in one of them the latter is infinite.
   struct Stiffness {
@@ -137,12 +155,14 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
   const DofMap& dofs = assembler.dofs();
   const auto size = static_cast<Eigen::Index>(mesh.elements.size()) * (pieces + 1);
   const Vec2 steady = steady_acceleration(assembler.structure());
-  BendingLine line{Vec(size), Mat(size, 2), Mat(size, 2), Mat(size, 2)};
+  BendingLine line{Vec(size), Mat(size, 2), Mat(size, 2), Mat(size, 2), Vec(size), Vec(size)};
+  const std::vector<Structure::Shaft> shafts = assembler.structure().shafts();
   int internal = 4 * dofs.nodes;  // index of the amplitudes of the next beam's own functions
   for (const bool tilts : dofs.body_tilts) internal += tilts ? 4 : 2;
   Eigen::Index at = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const MeshElement& element = mesh.elements[e];
+    const double speed = shafts[static_cast<std::size_t>(element.shaft)].ratio * Omega;
     const std::vector<Beam> beams = beams_along(e, assembler.structure(), mesh);
     const Beam& beam = beams.front();  // of the shaft itself; it alone has functions of its own
     const auto matrices = whirl::matrices(beam);
@@ -154,11 +174,11 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
     internal += static_cast<int>(n) - 8;
     acceleration(plane_x[0]) = acceleration(plane_x[2]) = steady(0);
     acceleration(plane_y[0]) = acceleration(plane_y[2]) = steady(1);
-    Vec f = matrices.K * q + Omega * (matrices.H * q) - matrices.M * acceleration;
+    Vec f = matrices.K * q + speed * (matrices.H * q) - matrices.M * acceleration;
     for (std::size_t i = 1; i < beams.size(); ++i) {
       const auto layer = whirl::matrices(beams[i]);
       f.head(8) +=
-          layer.K * q.head(8) + Omega * (layer.H * q.head(8)) - layer.M * acceleration.head(8);
+          layer.K * q.head(8) + speed * (layer.H * q.head(8)) - layer.M * acceleration.head(8);
     }
     const BeamIntegrals integrals(beams);
     for (const int plane : {0, 1}) {
@@ -173,6 +193,12 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
       line.deflection.block(at, plane, pieces + 1, 1) = columns.col(0);
       line.moment.block(at, plane, pieces + 1, 1) = columns.col(1);
       line.shear.block(at, plane, pieces + 1, 1) = columns.col(2);
+    }
+    for (int k = 0; k <= pieces; ++k) {
+      const auto found = integrals.stresses(beam.L * k / pieces, line.moment.row(at + k).norm(),
+                                            line.shear.row(at + k).norm());
+      line.bending_stress(at + k) = found.bending;
+      line.shear_stress(at + k) = found.shear;
     }
     for (int k = 0; k <= pieces; ++k) {
       line.z(at++) = mesh.z[static_cast<std::size_t>(element.left)] + beam.L * k / pieces;

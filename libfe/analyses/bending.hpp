@@ -14,10 +14,13 @@ namespace whirl::inline fe {
 /// zero. The shear force is that of the right part on the left one. Both ends of every beam are
 /// listed, so that inner nodes stand there twice: a bearing or a disk makes the shear force jump.
 struct BendingLine {
-  Vec z;           ///< positions, ascending [m]
+  Vec z;           ///< positions, shaft by shaft, ascending along each [m]
   Mat deflection;  ///< positions x 2: x, y [m]
   Mat moment;      ///< positions x 2: of the planes x-z, y-z [N.m]
   Mat shear;       ///< positions x 2: along x, y [N]
+  /// Nominal ones of the shaft, largest in the section: no steps, fillets, keyways. Layers carry
+  /// their shares of moment and shear force.
+  Vec bending_stress{}, shear_stress{};  ///< per position [Pa]
 
   static constexpr std::string_view group = "/static";
   static constexpr auto columns() {
@@ -43,6 +46,16 @@ struct BendingLine {
             .along("along 2")
             .within(valid::finite)
             .only(in_file),
+        column("bending_stress", &BendingLine::bending_stress, "Pa",
+               "largest bending stress of the section, nominal")
+            .along("along")
+            .within(valid::finite)
+            .maybe(),
+        column("shear_stress", &BendingLine::shear_stress, "Pa",
+               "largest shear stress of the section, nominal")
+            .along("along")
+            .within(valid::finite)
+            .maybe(),
         column("x", in_plane(deflection, 0), "m", "deflection").only(in_json),
         column("y", in_plane(deflection, 1), "m", "deflection").only(in_json),
         column("moment_x", in_plane(moment, 0), "N.m", "of the plane x-z").only(in_json),
@@ -58,7 +71,10 @@ struct BendingLine {
 /// that they are in equilibrium with loads and bearings. Deflections between the nodes are those of
 /// the beam under its weight with the displacements of its ends. Both are exact without axial
 /// forces; with them the share of N in the moment takes a cubic deflection within a beam. Damping
-/// inside the shaft carries its part of the moment while the shaft spins.
+/// inside the shaft carries its part of the moment while the shaft spins. Stresses are those of a
+/// cylinder of the outer and inner radius r, q at the position:
+///
+///   sigma = M r / I,   tau = 4 V / (3 A) (r^2 + r q + q^2) / (r^2 + q^2)
 ///
 /// @param Omega         speed of the equilibrium [rad/s]
 /// @param displacement  full vector, see DofMap [m, rad]

@@ -22,7 +22,7 @@ constexpr double rounding_of_gaps =
     1e-7;                              ///< of a speed: smaller gaps that do not shrink are rounding
 constexpr double least_alike = 0.3;    ///< MAC of a mode that goes on from speed to speed
 constexpr double surely_alike = 0.95;  ///< likewise, that need not be compared with others
-constexpr double range = 5.0;          ///< damped speeds beyond so many times are not looked for
+constexpr double range = 2.0;          ///< damped speeds beyond so many times are not looked for
 constexpr double rounding = 1e-13;     ///< of the largest nu: smaller ones have no finite speed
 
 }  // namespace
@@ -154,6 +154,23 @@ void find_damped(const ModeFinder& finder, const CriticalOptions& options, Criti
   critical.note = "the iteration does not converge";
 }
 
+/// Takes a damped speed off all undamped ones that lead to it but the nearest. Twins, as of planes
+/// that are alike, keep one each.
+void tell_apart(std::vector<Critical>& criticals) {
+  constexpr double same = 1e-8, twins = 1e-3;  // relative
+  const auto distance = [](const Critical& c) { return std::abs(c.damped_speed - c.speed); };
+  for (std::size_t i = 0; i < criticals.size(); ++i) {
+    for (std::size_t j = i + 1; j < criticals.size(); ++j) {
+      Critical &a = criticals[i], &b = criticals[j];
+      const bool is_shared = std::abs(a.damped_speed - b.damped_speed) < same * a.damped_speed;
+      if (!is_shared || std::abs(a.speed - b.speed) < twins * a.speed) continue;  // false for NaN
+      Critical& other = distance(a) <= distance(b) ? b : a;
+      other.damped_speed = other.damping_ratio = nan;
+      other.note = "the mode that its shape leads to is that of another critical speed";
+    }
+  }
+}
+
 }  // namespace
 
 std::string Critical::excitation() const {
@@ -182,6 +199,7 @@ std::vector<Critical> critical_speeds(const Assembler& assembler, const Critical
       c.note = error.what();
     }
   }
+  tell_apart(criticals);
   return criticals;
 }
 

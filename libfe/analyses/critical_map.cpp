@@ -70,6 +70,9 @@ Structure undamped(Structure s) {
     part.damping = {};
   };
   for (Segment& segment : s.shaft) release(segment);
+  for (Rotor& rotor : s.rotors) {
+    for (Segment& segment : rotor.shaft) release(segment);
+  }
   for (Layer& layer : s.layers) release(layer);
   s.damping = {};
   s.modal_damping = {};

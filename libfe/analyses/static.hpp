@@ -28,9 +28,25 @@ struct BearingLoad {
   }
 };
 
+/// The same of a link, such as one between a pedestal and its foundation.
+struct LinkLoad : BearingLoad {
+  static constexpr auto columns() {
+    using enum Written;
+    return ColumnList{
+        column("link", &LinkLoad::name, "", "link").axis().as("name"),
+        column("link_load", &LinkLoad::force, "N",
+               "force of the first station of the link on the second (x, y)")
+            .along("2")
+            .only(in_file),
+        column("fx", &LinkLoad::fx, "N", "force of the first station on the second").only(in_json),
+        column("fy", &LinkLoad::fy, "N", "force of the first station on the second").only(in_json)};
+  }
+};
+
 struct StaticEquilibrium {
   Vec displacement;                   ///< full vector, see DofMap [m, rad]
   std::vector<BearingLoad> bearings;  ///< of bearings, then of seals
+  std::vector<LinkLoad> links;
 
   static constexpr std::string_view group = "/static";
   static constexpr auto columns() {
@@ -39,7 +55,8 @@ struct StaticEquilibrium {
                "static displacement: x, y, theta_x, theta_y of every node, then of every body")
             .along("full")
             .only(Written::in_file),
-        rows(&StaticEquilibrium::bearings, "bearings").maybe()};
+        rows(&StaticEquilibrium::bearings, "bearings").maybe(),
+        rows(&StaticEquilibrium::links, "links").maybe()};
   }
 };
 

@@ -63,10 +63,7 @@ const DofMap& UnbalanceSolver::dofs() const {
 
 std::optional<CVec> UnbalanceSolver::at(double Omega) {
   State& s = *state_;
-  if (std::all_of(s.loads.begin(), s.loads.end(),
-                  [&](const Excitation& e) { return e.growth_at(Omega) == 0.0; })) {
-    return CVec(CVec::Zero(dofs().full_size));
-  }
+  if (!acts_at(s.loads, Omega)) return CVec(CVec::Zero(dofs().full_size));
   if (!s.stiffness || s.assembler.tables_depend_on_speed()) {
     s.stiffness.emplace(s.assembler.uncondensed(Omega));
   }
@@ -92,24 +89,31 @@ std::optional<CVec> UnbalanceSolver::at(double Omega, const std::vector<Point>& 
   return u;
 }
 
-UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitation& load,
-                                       const std::vector<double>& speeds,
-                                       const std::vector<Point>& points) {
-  const auto ns = static_cast<Eigen::Index>(speeds.size());
-  UnbalanceResponse response = response_at(speeds, points);
+void for_each_oscillation(
+    const Assembler& assembler, const Excitation& load, const std::vector<double>& speeds,
+    const std::function<void(Eigen::Index, double w, const CVec& full)>& take) {
   const DofMap& dofs = assembler.dofs();
   const CVec force = dofs.T.transpose() * load.amplitude;
   const bool changes = assembler.tables_depend_on_speed() || assembler.depends_on_whirl();
   std::optional<DynamicStiffness> stiffness;
-  for (Eigen::Index s = 0; s < ns; ++s) {
-    const double Omega = speeds[static_cast<std::size_t>(s)], w = load.frequency_at(Omega);
+  for (std::size_t s = 0; s < speeds.size(); ++s) {
+    const double Omega = speeds[s], w = load.frequency_at(Omega);
     if (!stiffness || changes) {
       stiffness.emplace(assembler.uncondensed(Omega, w));
     }
     const auto q = stiffness->solve(w, Omega, load.growth_at(Omega) * force);
-    const CVec full = q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan));
-    put(full, dofs, s, response);
+    take(static_cast<Eigen::Index>(s), w,
+         q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan)));
   }
+}
+
+UnbalanceResponse oscillating_response(const Assembler& assembler, const Excitation& load,
+                                       const std::vector<double>& speeds,
+                                       const std::vector<Point>& points) {
+  UnbalanceResponse response = response_at(speeds, points);
+  for_each_oscillation(assembler, load, speeds, [&](Eigen::Index s, double, const CVec& full) {
+    put(full, assembler.dofs(), s, response);
+  });
   return response;
 }
 

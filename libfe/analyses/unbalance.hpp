@@ -2,6 +2,7 @@
 /// Steady response to what has the frequency of the speed: unbalance, a bow of the shaft, forces of
 /// order 1; and to forces of other orders and frequencies.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -44,6 +45,13 @@ class UnbalanceSolver {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Calls a function at every speed with the number of the speed, the frequency w of a load there
+/// [rad/s] and the complex amplitudes of the full vector, NaN where the dynamic stiffness is
+/// singular. Bearings take the coefficients of that frequency.
+void for_each_oscillation(
+    const Assembler& assembler, const Excitation& load, const std::vector<double>& speeds,
+    const std::function<void(Eigen::Index, double w, const CVec& full)>& take);
 
 /// The same to one of the loads of other frequencies, of that frequency:
 /// u(t) = Re(value e^(i w t)). Bearings take the coefficients of that frequency.

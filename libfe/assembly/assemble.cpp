@@ -26,18 +26,29 @@ namespace {
 /// Collects element matrices at given indices of the full vector; index -1 is the ground.
 class Collector {
  public:
+  /// @param ratios  of the speeds of the shafts to that of the first one
+  explicit Collector(std::vector<double> ratios = {1.0})
+      : ratios_(std::move(ratios)), G_(ratios_.size()), H_(ratios_.size()) {}
+
+  /// @param shaft  with which the element spins
   template <int N>
-  void add(const ElementMatrices<N>& e, const std::vector<int>& index) {
+  void add(const ElementMatrices<N>& e, const std::vector<int>& index, std::size_t shaft = 0) {
     add(e.M, index, M_);
     add(e.C, index, C_);
-    add(e.G, index, G_);
+    add(e.G, index, G_[shaft]);
     add(e.K, index, K_);
-    add(e.H, index, H_);
+    add(e.H, index, H_[shaft]);
   }
   Sparse M(int n) const { return matrix(M_, n); }
   Sparse C(int n) const { return matrix(C_, n); }
   Sparse K(int n) const { return matrix(K_, n); }
-  SpinPart<Sparse> spin(int n) const { return {1.0, matrix(G_, n), matrix(H_, n)}; }
+  std::vector<SpinPart<Sparse>> spins(int n) const {
+    std::vector<SpinPart<Sparse>> parts;
+    for (std::size_t i = 0; i < ratios_.size(); ++i) {
+      parts.push_back({ratios_[i], matrix(G_[i], n), matrix(H_[i], n)});
+    }
+    return parts;
+  }
 
  private:
   template <class Block>
@@ -56,7 +67,9 @@ class Collector {
     A.setFromTriplets(triplets.begin(), triplets.end());
     return A;
   }
-  std::vector<Triplet> M_, C_, G_, K_, H_;
+  std::vector<double> ratios_;
+  std::vector<Triplet> M_, C_, K_;
+  std::vector<std::vector<Triplet>> G_, H_;  // of each shaft
 };
 
 std::vector<int> indices(const DofMap& dofs, const Point& point) {
@@ -198,11 +211,11 @@ void check_probes(const Structure& structure) {
 bool differ_in_loads_alone(const Structure& a, const Structure& b) {
   // names all members: one more does not compile until it is compared here, or said to be a load
   const auto& [shaft, disks, bodies, bearings, links, seals, linearized, unbalances, stations,
-               damping, gravity, layers, modal_damping, bow, forces, probes] = a;
+               damping, gravity, layers, modal_damping, bow, forces, probes, rotors] = a;
   const auto same_station = [](const Station* x, const Station* y) { return *x == *y; };
   return std::ranges::equal(all_stations(a), all_stations(b), same_station) && shaft == b.shaft &&
-         layers == b.layers && disks == b.disks && bodies == b.bodies && bearings == b.bearings &&
-         links == b.links && seals == b.seals && damping == b.damping &&
+         layers == b.layers && rotors == b.rotors && disks == b.disks && bodies == b.bodies &&
+         bearings == b.bearings && links == b.links && seals == b.seals && damping == b.damping &&
          modal_damping == b.modal_damping && linearized.empty() && b.linearized.empty();
 }
 
@@ -215,18 +228,28 @@ void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Colle
     while (static_cast<Eigen::Index>(index.size()) < e.M.rows()) {
       index.push_back(dofs.full_size++);
     }
-    to.add(e, index);
+    to.add(e, index, static_cast<std::size_t>(element.shaft));
   }
   for (const MeshLayer& piece : mesh.layers) {
     const MeshElement& beside = mesh.elements[static_cast<std::size_t>(piece.element)];
     to.add(matrices(beam_of(piece, structure, mesh)),
-           indices(dofs, {Point::Kind::node, beside.left}, {Point::Kind::node, beside.right}));
+           indices(dofs, {Point::Kind::node, beside.left}, {Point::Kind::node, beside.right}),
+           static_cast<std::size_t>(beside.shaft));
   }
   for (const Disk& disk : structure.disks) {
-    to.add(matrices(disk), indices(dofs, resolve(disk.at, structure, mesh)));
+    const Point at = resolve(disk.at, structure, mesh);
+    const int shaft = mesh.shaft_of[static_cast<std::size_t>(at.index)];
+    to.add(matrices(disk), indices(dofs, at), static_cast<std::size_t>(shaft));
   }
   for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
-    to.add(matrices(structure.bodies[i]), indices(dofs, {Point::Kind::body, static_cast<int>(i)}));
+    const Body& body = structure.bodies[i];
+    const std::optional<int> shaft = structure.shaft_named(body.rotor);
+    if (!shaft) {
+      throw ModelError(body.where, body.name,
+                       fmt::format("there is no rotor named \"{}\"", body.rotor));
+    }
+    to.add(matrices(body), indices(dofs, {Point::Kind::body, static_cast<int>(i)}),
+           static_cast<std::size_t>(*shaft));
   }
 }
 
@@ -240,7 +263,9 @@ Assembler::Assembler(Structure structure)
   check_probes(*structure_);
   DofMap& dofs = made->dofs;
   dofs = freedoms_of_points(*structure_, made->mesh);
-  Collector collector;
+  std::vector<double> ratios;
+  for (const Structure::Shaft& shaft : structure_->shafts()) ratios.push_back(shaft.ratio);
+  Collector collector(std::move(ratios));
   add_rotor(*structure_, made->mesh, dofs, collector);
   const int n = dofs.full_size;
   made->weighing = collector.M(n);
@@ -257,7 +282,7 @@ Assembler::Assembler(Structure structure)
       }
     }
   }
-  made->fixed = {collector.M(n), collector.C(n), collector.K(n), {collector.spin(n)}};
+  made->fixed = {collector.M(n), collector.C(n), collector.K(n), collector.spins(n)};
   if (!structure_->linearized.empty()) made->tables_depend_on_speed = true;
   if (!structure_->modal_damping.ratios.empty()) {
     // modes at rest, where films carry nothing; with the added mass of tables
@@ -289,7 +314,7 @@ Assembler::FullEquations Assembler::full(double Omega, double omega) const {
     for (const Connection& c : list) {
       if (!whirl::depends_on_speed(c.coefficients)) continue;
       any = true;
-      collector.add(matrices(coefficients(c.coefficients, Omega, omega)),
+      collector.add(matrices(coefficients_of(c, Omega, omega)),
                     indices(dofs(), point(c.from), point(c.to)));
     }
   }
@@ -366,10 +391,17 @@ Vec Assembler::inertia_load(const Vec2& a) const {
   return assembled_->weighing * acceleration;
 }
 
-CVec Assembler::unbalance() const {
+BearingCoefficients Assembler::coefficients_of(const Connection& connection, double Omega,
+                                               double omega) const {
+  const double speed = std::abs(shaft_ratio(point(connection.from))) * Omega;
+  return coefficients(connection.coefficients, speed, omega);
+}
+
+CVec Assembler::unbalance(double ratio) const {
   CVec u = CVec::Zero(dofs().full_size);
   for (const Unbalance& unbalance : structure_->unbalances) {
     const Point p = point(unbalance.at);
+    if (shaft_ratio(p) != ratio) continue;
     const Complex amplitude = std::polar(unbalance.moment, unbalance.phase);
     u(dofs().full_index(p, X)) += amplitude;
     u(dofs().full_index(p, Y)) += Complex(0.0, -1.0) * amplitude;
@@ -397,12 +429,6 @@ CVec Assembler::bow() const {
     }
   }
   return force;
-}
-
-Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {
-  const FullEquations f = full(Omega, 0.0);
-  const Vec displacement = dofs().T * q;
-  return f.K * displacement + Omega * (f.H() * displacement) - full_load;
 }
 
 System assemble(const Structure& structure, double Omega) {

@@ -10,6 +10,8 @@
 
 namespace whirl::inline fe {
 
+struct BearingCoefficients;
+struct Connection;
 struct Structure;
 
 /// The equations of motion of a structure at a speed, n x n.
@@ -36,6 +38,16 @@ class Assembler {
   /// Of the coordinates that supports leave, nothing condensed.
   const DofMap& dofs() const { return assembled_->dofs; }
   Point point(const Station& station) const { return resolve(station, *structure_, mesh()); }
+  /// Speeds over that of the first shaft, see mesh.hpp.
+  double shaft_ratio(const Point& point) const {
+    return whirl::shaft_ratio(point, *structure_, mesh());
+  }
+  double spin_ratio(const Point& point) const {
+    return whirl::spin_ratio(point, *structure_, mesh());
+  }
+  /// Coefficients of a bearing, seal or link, at the speed of the shaft that it is on.
+  BearingCoefficients coefficients_of(const Connection& connection, double Omega,
+                                      double omega) const;
 
   /// Whether M, C or K change with speed (tables, films).
   bool tables_depend_on_speed() const { return assembled_->tables_depend_on_speed; }
@@ -71,7 +83,10 @@ class Assembler {
 
   /// Complex amplitude of the unbalance force over Omega^2, a full vector [kg.m]:
   /// f(t) = Omega^2 Re(u exp(i Omega t)), u_x = U e^(i phase), u_y = -i u_x.
-  CVec unbalance() const;
+  ///
+  /// @param ratio  of the speed of the shafts whose unbalance counts to that of the first one; f(t)
+  ///               goes with ratio Omega in place of Omega
+  CVec unbalance(double ratio = 1.0) const;
 
   /// Complex amplitude of the force that holds a straight shaft in its bow, a full vector
   /// [N, N.m]: f(t) = Re(f exp(i Omega t)), f = K_shaft bow, with the elastic stiffness of segments
@@ -82,12 +97,12 @@ class Assembler {
   /// @source [Nicholas1976]
   CVec bow() const;
 
-  /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m], for
-  /// displacements that last.
-  Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;
+  using FullEquations = EquationsOfMotion<Sparse>;
+  /// Equations of the full vector, as if rigid parts were not there, for motions of a frequency
+  /// [rad/s].
+  FullEquations full(double Omega, double omega) const;
 
  private:
-  using FullEquations = EquationsOfMotion<Sparse>;  // of the full vector
   /// What loads do not change: structures that differ in loads alone share it.
   struct Assembled {
     Mesh mesh;
@@ -98,7 +113,6 @@ class Assembler {
     bool tables_depend_on_speed = false;
     bool depends_on_whirl = false;
   };
-  FullEquations full(double Omega, double omega) const;
   std::vector<bool> touched_by_whirl() const;
   System system_of(const FullEquations& f, const Sparse& T) const;
 

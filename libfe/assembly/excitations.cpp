@@ -34,6 +34,41 @@ Excitation excitation_of(const Force& f, const Assembler& assembler) {
   return {f.order, f.frequency, Growth::none, amplitude_of(f, assembler), f.name};
 }
 
+/// Ratios of the speeds of shafts with unbalance to that of the first one, each once; of those that
+/// turn at its own speed and of those that stand there is nothing to be said.
+std::vector<double> other_unbalanced_ratios(const Structure& structure) {
+  std::vector<double> ratios;
+  if (structure.rotors.empty() || structure.unbalances.empty()) return ratios;
+  const Mesh mesh = make_mesh(structure);
+  for (const Unbalance& u : structure.unbalances) {
+    const double ratio = shaft_ratio(resolve(u.at, structure, mesh), structure, mesh);
+    if (ratio == 1.0 || ratio == 0.0) continue;
+    if (std::ranges::find(ratios, ratio) == ratios.end()) ratios.push_back(ratio);
+  }
+  std::ranges::sort(ratios);
+  return ratios;
+}
+
+/// The unbalance of shafts that turn at another speed than the first one. Against its sense
+/// Re(u e^(-i alpha)) is Re(conj(u) e^(i alpha)).
+std::vector<Excitation> other_unbalances(const Assembler& assembler) {
+  std::vector<Excitation> all;
+  for (const double ratio : other_unbalanced_ratios(assembler.structure())) {
+    CVec amplitude = ratio * ratio * assembler.unbalance(ratio);
+    if (ratio < 0.0) amplitude = amplitude.conjugate().eval();
+    std::string names;
+    for (const Rotor& rotor : assembler.structure().rotors) {
+      if (rotor.ratio != ratio) continue;
+      names += fmt::format("{}unbalance of {}", names.empty() ? "" : ", ", rotor.name);
+    }
+    all.push_back({.order = std::abs(ratio),
+                   .growth = Growth::unbalance,
+                   .amplitude = std::move(amplitude),
+                   .names = names});
+  }
+  return all;
+}
+
 bool any_of(const Structure& s, bool (Force::*is)() const) {
   return std::any_of(s.forces.begin(), s.forces.end(), [&](const Force& f) { return (f.*is)(); });
 }
@@ -76,6 +111,9 @@ std::vector<Excitation> synchronous_excitations(const Assembler& assembler) {
     all.push_back({.order = 1.0, .growth = Growth::unbalance, .amplitude = assembler.unbalance()});
   }
   if (!s.bow.z.empty()) all.push_back({.order = 1.0, .amplitude = assembler.bow()});
+  for (Excitation& e : other_unbalances(assembler)) {
+    if (e.is_synchronous()) all.push_back(std::move(e));
+  }
   for (const Force& f : s.forces) {
     if (f.is_synchronous()) all.push_back(excitation_of(f, assembler));
   }
@@ -85,19 +123,28 @@ std::vector<Excitation> synchronous_excitations(const Assembler& assembler) {
 std::vector<Excitation> other_excitations(const Assembler& assembler) {
   // orders come before frequencies
   std::map<std::tuple<bool, double, Growth>, Excitation> all;
-  for (const Force& f : assembler.structure().forces) {
-    if (f.is_constant() || f.is_synchronous()) continue;
-    const bool has_order = f.order > 0.0;
-    Excitation own = excitation_of(f, assembler);
+  const auto add = [&](const Excitation& own) {
+    const bool has_order = own.order > 0.0;
     const auto [at, is_new] =
-        all.try_emplace({!has_order, has_order ? f.order : f.frequency, own.growth}, own);
-    if (is_new) continue;
+        all.try_emplace({!has_order, has_order ? own.order : own.frequency, own.growth}, own);
+    if (is_new) return;
     at->second.amplitude += own.amplitude;
     at->second.names += ", " + own.names;
+  };
+  for (const Force& f : assembler.structure().forces) {
+    if (!f.is_constant() && !f.is_synchronous()) add(excitation_of(f, assembler));
+  }
+  for (const Excitation& e : other_unbalances(assembler)) {
+    if (!e.is_synchronous()) add(e);
   }
   std::vector<Excitation> excitations;
   for (auto& [key, excitation] : all) excitations.push_back(std::move(excitation));
   return excitations;
+}
+
+bool acts_at(const std::vector<Excitation>& excitations, double Omega) {
+  return std::any_of(excitations.begin(), excitations.end(),
+                     [&](const Excitation& e) { return e.growth_at(Omega) != 0.0; });
 }
 
 CVec sum_at(const std::vector<Excitation>& excitations, const Assembler& assembler, double Omega) {
@@ -146,13 +193,18 @@ double highest_frequency(const Structure& structure, double Omega) {
   for (const Force& f : structure.forces) {
     highest = std::max({highest, f.order * std::abs(Omega), f.frequency});
   }
+  for (const double ratio : other_unbalanced_ratios(structure)) {
+    highest = std::max(highest, std::abs(ratio * Omega));
+  }
   return highest;
 }
 
 bool has_oscillating_force(const Structure& structure) {
   const std::vector<Force>& forces = structure.forces;
   return std::any_of(forces.begin(), forces.end(),
-                     [](const Force& f) { return !f.is_constant() && !f.is_synchronous(); });
+                     [](const Force& f) { return !f.is_constant() && !f.is_synchronous(); }) ||
+         std::ranges::any_of(other_unbalanced_ratios(structure),
+                             [](double ratio) { return std::abs(ratio) != 1.0; });
 }
 
 bool has_constant_force(const Structure& structure) {

@@ -40,15 +40,19 @@ struct Excitation {
 
 /// Gravity and constant forces, one after the other.
 std::vector<Excitation> constant_excitations(const Assembler& assembler);
-/// All that has the frequency of the speed, one after the other: unbalance, bow, forces of order 1.
+/// All that has the frequency of the speed, one after the other: unbalance, bow, forces of order 1,
+/// unbalance of shafts that turn against the first one at its speed.
 std::vector<Excitation> synchronous_excitations(const Assembler& assembler);
-/// Forces of other frequencies, those of one frequency and growth together; orders before
-/// frequencies, ascending.
+/// Forces of other frequencies and the unbalance of shafts of other speeds, those of one frequency
+/// and growth together; orders before frequencies, ascending.
 std::vector<Excitation> other_excitations(const Assembler& assembler);
 
 /// All loads at a speed: the constant one, the synchronous one, then the others, those of one
 /// frequency and growth together. The first two are there even where they are zero.
 std::vector<Excitation> excitations_at(const Assembler& assembler, double Omega);
+
+/// Whether any of them loads the rotor at a speed.
+bool acts_at(const std::vector<Excitation>& excitations, double Omega);
 
 /// Sum of amplitudes at a speed, a full vector [N, N.m].
 CVec sum_at(const std::vector<Excitation>& excitations, const Assembler& assembler, double Omega);

@@ -4,7 +4,7 @@
 
 namespace whirl::inline fe {
 
-/// What a rotor weighs: shaft, disks and spinning bodies.
+/// What a rotor weighs: its shafts, disks and spinning bodies.
 struct RotorProperties {
   double mass = 0.0;            ///< [kg]
   double center_of_mass = 0.0;  ///< of shaft and disks, along the shaft [m]
@@ -15,5 +15,9 @@ struct RotorProperties {
 
 /// Integrates along the shaft; exact for cylinders and cones.
 RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh);
+
+/// Mass of shaft and disks that lies beyond a position, to its right or to its left [kg]. A disk at
+/// the position does not count.
+double mass_beyond(const Structure& structure, const Mesh& mesh, double z, bool to_the_right);
 
 }  // namespace whirl::inline fe

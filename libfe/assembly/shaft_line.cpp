@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 
+#include "libbase/numerics/constants.hpp"
 #include "libfe/mesh/shaft_elements.hpp"
 
 namespace whirl::inline fe {
@@ -22,14 +24,16 @@ ShaftLine shaft_line(const Assembler& assembler, int parts) {
   assert(parts >= 1);
   const Mesh& mesh = assembler.mesh();
   const auto elements = static_cast<Eigen::Index>(mesh.elements.size());
-  ShaftLine line{Vec(elements > 0 ? elements * parts + 1 : 0), {}, {}};
+  const auto lines = std::ssize(mesh.lines());
+  ShaftLine line{Vec::Constant(elements * parts + (lines > 0 ? 2 * lines - 1 : 0), nan), {}, {}};
   std::vector<Triplet> x, y;
   int next = internal_start(assembler);
   Eigen::Index place = 0;
   for (Eigen::Index e = 0; e < elements; ++e) {
     const MeshElement& element = mesh.elements[static_cast<std::size_t>(e)];
     const Beam beam = beam_of(element, assembler.structure(), mesh);
-    const bool is_last = e + 1 == elements;
+    const auto next_element = static_cast<std::size_t>(e) + 1;
+    const bool is_last = e + 1 == elements || mesh.elements[next_element].shaft != element.shaft;
     const Vec xi = Vec::LinSpaced(parts + 1, 0.0, 1.0).head(is_last ? parts + 1 : parts);
     const Mat N = deflection_functions(beam, xi);
     const auto internal = static_cast<int>(N.cols()) - 4;
@@ -49,6 +53,7 @@ ShaftLine shaft_line(const Assembler& assembler, int parts) {
       }
     }
     next += 2 * internal;
+    if (is_last) ++place;  // the gap
   }
   for (Sparse* to : {&line.x, &line.y}) {
     to->resize(line.z.size(), next);

@@ -5,9 +5,10 @@
 
 namespace whirl::inline fe {
 
-/// Places along the shaft, and their deflections as rows of the full vector (see DofMap).
+/// Places along the shafts, one shaft after the other, and their deflections as rows of the full
+/// vector (see DofMap).
 struct ShaftLine {
-  Vec z;        ///< places, left to right; every node is one [m]
+  Vec z;        ///< places, left to right; every node is one, NaN between two shafts [m]
   Sparse x, y;  ///< places x full size; deflection = x * full [m]
 };
 

@@ -23,4 +23,8 @@ struct Antinode {
 /// @return       none where the shaft does not move, or only backward
 std::vector<Antinode> antinodes(const Mesh& mesh, const DofMap& dofs, const CVec& shape);
 
+/// How far the part of a shape that whirls forward moves a node, over the largest deflection of the
+/// shaft; 0 where the shaft does not move.
+double forward_share(const Mesh& mesh, const DofMap& dofs, const CVec& shape, int node);
+
 }  // namespace whirl::inline fe

@@ -296,6 +296,11 @@ double last_coupling(const CouplingStability& found, double anticipated, double 
 
 }  // namespace
 
+CoupledMode least_damped_mode(const Structure& structure, double Omega, const Station& at,
+                              int count) {
+  return CoupledRotor(structure, Omega, at, count).at(0.0).mode;
+}
+
 CouplingStability coupling_stability(const Structure& structure, double Omega, const Station& at,
                                      const CouplingOptions& options) {
   CouplingStability found;

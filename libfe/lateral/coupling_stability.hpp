@@ -36,6 +36,11 @@ struct CouplingOptions {
   int steps = 16;            ///< of the curve, from 0 to a quarter beyond Q_0
 };
 
+/// The least damped mode without any cross-coupled stiffness beside that of the structure, as
+/// coupling_stability chooses it.
+CoupledMode least_damped_mode(const Structure& structure, double Omega, const Station& at,
+                              int count);
+
 /// Logarithmic decrement over a cross-coupled stiffness at a station, at a speed.
 ///
 ///   f_x = -Q y,   f_y = Q x:   it feeds forward whirl

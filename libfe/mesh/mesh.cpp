@@ -33,32 +33,35 @@ int elements_for(const Segment& segment, double piece, double shaft_length) {
 /// Segments that cannot be told from a point, beside a shaft so long (or beyond all numbers), and
 /// more elements than there can be.
 void check_segments(const Structure& structure) {
-  const double length = structure.length();
   std::vector<Problem> problems;
   double elements = 0.0;
-  for (std::size_t i = 0; i < structure.shaft.size(); ++i) {
-    const Segment& segment = structure.shaft[i];
-    const std::string key = fmt::format("shaft.{}", i + 1);
-    elements += segment.elements;
-    if (!(segment.length > same_place * length)) {
-      problems.push_back(
-          {segment.where, key,
-           fmt::format("a segment of {:g} m is no part of a shaft of {:g} m: the two "
-                       "are too different in length",
-                       segment.length, length)});
-    } else if (elements > most_nodes) {
-      problems.push_back(
-          {segment.where, key, fmt::format("more than {:g} elements in all", most_nodes)});
-      break;
+  for (const Structure::Shaft& shaft : structure.shafts()) {
+    const double length = shaft.length();
+    for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
+      const Segment& segment = shaft.segments[i];
+      const std::string key =
+          fmt::format("shaft.{}{}{}", shaft.name, shaft.name.empty() ? "" : ".", i + 1);
+      elements += segment.elements;
+      if (!(segment.length > same_place * length)) {
+        problems.push_back(
+            {segment.where, key,
+             fmt::format("a segment of {:g} m is no part of a shaft of {:g} m: the two "
+                         "are too different in length",
+                         segment.length, length)});
+      } else if (elements > most_nodes) {
+        problems.push_back(
+            {segment.where, key, fmt::format("more than {:g} elements in all", most_nodes)});
+        break;
+      }
     }
   }
   if (!problems.empty()) throw ModelError(problems);
 }
 
 /// Positions of nodes that the segments make, where elements are given.
-std::vector<double> given_nodes(const Structure& structure) {
-  std::vector<double> nodes{0.0};
-  for (const Segment& segment : structure.shaft) {
+std::vector<double> given_nodes(const Structure::Shaft& shaft) {
+  std::vector<double> nodes{shaft.start};
+  for (const Segment& segment : shaft.segments) {
     const double from = nodes.back();
     const int n = std::max(1, segment.elements);
     for (int i = 1; i <= n; ++i) nodes.push_back(from + segment.length * i / n);
@@ -66,27 +69,29 @@ std::vector<double> given_nodes(const Structure& structure) {
   return nodes;
 }
 
-/// The problem of a position beyond the ends of the shaft.
-Problem off_the_shaft(const Station& station, const Structure& structure) {
+/// The problem of a position beyond the ends of its shaft.
+Problem off_the_shaft(const Station& station, const Structure::Shaft& shaft) {
   const std::string found = fmt::format("{:g} mm is off the shaft", 1e3 * station.z);
   const std::string right =
-      structure.shaft.empty()
+      shaft.segments.empty()
           ? "the model has no shaft: name a body instead"
-          : fmt::format("the shaft reaches from 0 to {:g} mm", 1e3 * structure.length());
+          : fmt::format("the shaft{} reaches from {:g} to {:g} mm",
+                        shaft.name.empty() ? "" : " of rotor \"" + shaft.name + "\"",
+                        1e3 * shaft.start, 1e3 * shaft.end());
   return {station.where, station.key, found + "; " + right};
 }
 
-/// Positions that need a node, beside those that have one already; in ascending order.
+/// Positions on a shaft that need a node, beside those that have one already; in ascending order.
 /// @throws ModelError  for stations off the shaft, or nearly but not quite at one place
-std::vector<double> wanted_positions(const Structure& structure) {
-  const double length = structure.length();
+std::vector<double> wanted_positions(const Structure& structure, const Structure::Shaft& shaft) {
+  const double length = shaft.length();
   std::vector<Problem> problems;
-  std::vector<double> wanted, taken = given_nodes(structure);
+  std::vector<double> wanted, taken = given_nodes(shaft);
   for (const Station* station : all_stations(structure)) {
-    if (station->kind != Station::Kind::position) continue;
+    if (station->kind != Station::Kind::position || station->rotor != shaft.name) continue;
     const double z = station->z;
-    if (z < -same_place * length || z > (1.0 + same_place) * length) {
-      problems.push_back(off_the_shaft(*station, structure));
+    if (z < shaft.start - same_place * length || z > shaft.start + (1.0 + same_place) * length) {
+      problems.push_back(off_the_shaft(*station, shaft));
       continue;
     }
     const auto close = std::find_if(taken.begin(), taken.end(), [&](double other) {
@@ -109,8 +114,9 @@ std::vector<double> wanted_positions(const Structure& structure) {
 
 /// Nodes of the mesh that the segments describe, and behind them those of the positions that are
 /// wanted inside a segment whose elements are given.
-std::vector<double> node_positions(const Structure& structure, const std::vector<double>& wanted) {
-  const double length = structure.length();
+std::vector<double> node_positions(const Structure::Shaft& shaft,
+                                   const std::vector<double>& wanted) {
+  const double length = shaft.length();
   std::vector<bool> is_used(wanted.size(), false);
   const auto inside = [&](double from, double to) {
     std::vector<double> cuts;
@@ -122,9 +128,9 @@ std::vector<double> node_positions(const Structure& structure, const std::vector
     }
     return cuts;
   };
-  std::vector<double> z{0.0};
-  double start = 0.0;
-  for (const Segment& segment : structure.shaft) {
+  std::vector<double> z{shaft.start};
+  double start = shaft.start;
+  for (const Segment& segment : shaft.segments) {
     const double end = start + segment.length;
     std::vector<double> borders;
     if (segment.elements == 0) borders = inside(start, end);
@@ -145,22 +151,37 @@ std::vector<double> node_positions(const Structure& structure, const std::vector
   return z;
 }
 
-/// Adds the elements between neighbors to a mesh with nodes.
-void add_elements(Mesh& mesh, const Structure& structure) {
+/// Adds the elements between neighboring nodes of a shaft.
+/// @param line  its nodes, left to right
+void add_elements(Mesh& mesh, const Structure::Shaft& shaft, int number,
+                  const std::vector<int>& line) {
   std::size_t segment = 0;
-  double start = 0.0;
-  for (std::size_t i = 0; i + 1 < mesh.left_to_right.size(); ++i) {
-    const int left = mesh.left_to_right[i], right = mesh.left_to_right[i + 1];
+  double start = shaft.start;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const int left = line[i], right = line[i + 1];
     const double middle = 0.5 * (mesh.z[left] + mesh.z[right]);
-    while (segment + 1 < structure.shaft.size() &&
-           middle > start + structure.shaft[segment].length) {
-      start += structure.shaft[segment].length;
+    while (segment + 1 < shaft.segments.size() && middle > start + shaft.segments[segment].length) {
+      start += shaft.segments[segment].length;
       ++segment;
     }
-    const double L = structure.shaft[segment].length;
-    mesh.elements.push_back({left, right, static_cast<int>(segment), (mesh.z[left] - start) / L,
-                             (mesh.z[right] - start) / L});
+    const double L = shaft.segments[segment].length;
+    mesh.elements.push_back({left, right, number, static_cast<int>(segment),
+                             (mesh.z[left] - start) / L, (mesh.z[right] - start) / L});
   }
+}
+
+/// Adds the nodes and elements of a shaft.
+void add_shaft(Mesh& mesh, const Structure& structure, const Structure::Shaft& shaft, int number) {
+  const std::vector<double> wanted = wanted_positions(structure, shaft);
+  if (shaft.segments.empty()) return;
+  const int first = mesh.nodes();
+  for (const double z : node_positions(shaft, wanted)) mesh.z.push_back(z);
+  mesh.shaft_of.resize(mesh.z.size(), number);
+  std::vector<int> line(mesh.z.size() - static_cast<std::size_t>(first));
+  std::iota(line.begin(), line.end(), first);
+  std::sort(line.begin(), line.end(), [&](int a, int b) { return mesh.z[a] < mesh.z[b]; });
+  mesh.left_to_right.insert(mesh.left_to_right.end(), line.begin(), line.end());
+  add_elements(mesh, shaft, number, line);
 }
 
 /// Adds the layers beside the elements of a mesh.
@@ -178,10 +199,12 @@ void add_layers(Mesh& mesh, const Structure& structure) {
   }
   if (!problems.empty()) throw ModelError(problems);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const int shaft = mesh.elements[e].shaft;
     const double left = mesh.z[static_cast<std::size_t>(mesh.elements[e].left)];
     const double right = mesh.z[static_cast<std::size_t>(mesh.elements[e].right)];
     for (std::size_t i = 0; i < spans.size(); ++i) {
-      const auto [from, to] = spans[i];
+      const auto& [from, to, of_shaft] = spans[i];
+      if (of_shaft != shaft) continue;
       if (left < from - slack || right > to + slack) continue;
       mesh.layers.push_back({static_cast<int>(e), static_cast<int>(i), (left - from) / (to - from),
                              (right - from) / (to - from)});
@@ -214,8 +237,8 @@ std::vector<const Station*> all_stations(const Structure& structure) {
 }
 
 LayerSpan span_of(const Layer& layer, const Structure& structure, const Mesh& mesh) {
-  const auto z = [&](const Station& station) {
-    return mesh.z[static_cast<std::size_t>(resolve(station, structure, mesh).index)];
+  const auto node = [&](const Station& station) {
+    return static_cast<std::size_t>(resolve(station, structure, mesh).index);
   };
   for (const Station* end : {&layer.from, &layer.to}) {
     const bool is_on_shaft =
@@ -223,42 +246,72 @@ LayerSpan span_of(const Layer& layer, const Structure& structure, const Mesh& me
     if (is_on_shaft && mesh.nodes() > 0) continue;
     throw ModelError(end->where, end->key, "a layer lies on the shaft, from one place to another");
   }
-  return {z(layer.from), z(layer.to)};
+  const std::size_t from = node(layer.from), to = node(layer.to);
+  if (mesh.shaft_of[from] != mesh.shaft_of[to]) {
+    throw ModelError(layer.to.where, layer.to.key, "a layer lies on one shaft, not on two");
+  }
+  return {mesh.z[from], mesh.z[to], mesh.shaft_of[from]};
 }
 
-double shaft_diameter(const Structure& structure, const Mesh& mesh, double z) {
-  double start = 0.0, largest = 0.0;
-  const double slack = same_place * structure.length();
+double shaft_diameter(const Structure& structure, const Mesh& mesh, double z, int shaft) {
+  const Structure::Shaft of = structure.shafts().at(static_cast<std::size_t>(shaft));
+  double start = of.start, largest = 0.0;
+  const double slack = same_place * of.length();
   const auto add = [&](const Section& left, const Section& right, double from, double length) {
     const double s = (z - from) / length;
     if (z < from - slack || z > from + length + slack) return;
     largest = std::max(largest, between(left, right, std::clamp(s, 0.0, 1.0)).outer);
   };
-  for (const Segment& segment : structure.shaft) {
+  for (const Segment& segment : of.segments) {
     add(segment.left, segment.right, start, segment.length);
     start += segment.length;
   }
   for (const Layer& layer : structure.layers) {
     const LayerSpan span = span_of(layer, structure, mesh);
-    add(layer.left, layer.right, span.from, span.to - span.from);
+    if (span.shaft == shaft) add(layer.left, layer.right, span.from, span.to - span.from);
   }
   return largest;
 }
 
+double diameter_at(const Structure& structure, const Mesh& mesh, int node) {
+  const auto at = static_cast<std::size_t>(node);
+  return shaft_diameter(structure, mesh, mesh.z.at(at), mesh.shaft_of.at(at));
+}
+
+double shaft_ratio(const Point& point, const Structure& structure, const Mesh& mesh) {
+  if (point.kind == Point::Kind::ground) return 0.0;
+  const auto index = static_cast<std::size_t>(point.index);
+  const std::optional<int> shaft = point.kind == Point::Kind::node
+                                       ? mesh.shaft_of.at(index)
+                                       : structure.shaft_named(structure.bodies.at(index).rotor);
+  return shaft ? structure.shafts().at(static_cast<std::size_t>(*shaft)).ratio : 0.0;
+}
+
+double spin_ratio(const Point& point, const Structure& structure, const Mesh& mesh) {
+  const bool stands = point.kind == Point::Kind::body &&
+                      !structure.bodies.at(static_cast<std::size_t>(point.index)).spins;
+  return stands ? 0.0 : shaft_ratio(point, structure, mesh);
+}
+
+std::vector<std::vector<int>> Mesh::lines() const {
+  std::vector<std::vector<int>> all;
+  int last = -1;
+  for (const int node : left_to_right) {
+    const int shaft = shaft_of[static_cast<std::size_t>(node)];
+    if (shaft != last) all.emplace_back();
+    last = shaft;
+    all.back().push_back(node);
+  }
+  return all;
+}
+
 Mesh make_mesh(const Structure& structure) {
   check_segments(structure);
-  const std::vector<double> wanted = wanted_positions(structure);
   Mesh mesh;
-  if (structure.shaft.empty()) {
-    add_layers(mesh, structure);
-    return mesh;
+  int number = 0;
+  for (const Structure::Shaft& shaft : structure.shafts()) {
+    add_shaft(mesh, structure, shaft, number++);
   }
-  mesh.z = node_positions(structure, wanted);
-  mesh.left_to_right.resize(mesh.z.size());
-  std::iota(mesh.left_to_right.begin(), mesh.left_to_right.end(), 0);
-  std::sort(mesh.left_to_right.begin(), mesh.left_to_right.end(),
-            [&](int a, int b) { return mesh.z[a] < mesh.z[b]; });
-  add_elements(mesh, structure);
   add_layers(mesh, structure);
   return mesh;
 }
@@ -287,14 +340,20 @@ Point resolve(const Station& station, const Structure& structure, const Mesh& me
     case Station::Kind::position:
       break;
   }
+  const std::optional<int> shaft = structure.shaft_named(station.rotor);
+  if (!shaft) {
+    throw ModelError(station.where, station.key,
+                     fmt::format("there is no rotor named \"{}\"", station.rotor));
+  }
   int nearest = -1;
   for (int i = 0; i < mesh.nodes(); ++i) {
+    if (mesh.shaft_of[static_cast<std::size_t>(i)] != *shaft) continue;
     if (nearest < 0 || std::abs(mesh.z[i] - station.z) < std::abs(mesh.z[nearest] - station.z)) {
       nearest = i;
     }
   }
-  if (nearest < 0 ||
-      std::abs(mesh.z[nearest] - station.z) > 2.0 * same_place * structure.length()) {
+  const double length = structure.shafts()[static_cast<std::size_t>(*shaft)].length();
+  if (nearest < 0 || std::abs(mesh.z[nearest] - station.z) > 2.0 * same_place * length) {
     throw ModelError(station.where, station.key,
                      fmt::format("{:g} mm is not a node of the shaft", 1e3 * station.z));
   }

@@ -3,7 +3,8 @@
 namespace whirl::inline fe {
 
 Beam beam_of(const MeshElement& element, const Structure& structure, const Mesh& mesh) {
-  const Segment& segment = structure.shaft[static_cast<std::size_t>(element.segment)];
+  const std::vector<Segment>& segments = structure.segments_of(element.shaft);
+  const Segment& segment = segments[static_cast<std::size_t>(element.segment)];
   return {.L = mesh.z[element.right] - mesh.z[element.left],
           .left = segment.at(element.from),
           .right = segment.at(element.to),

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -64,6 +65,27 @@ struct Segment {
         optional("theory", &Segment::theory, "", any, "beam theory"),
         optional("axial_force", &Segment::axial_force, "N", any, "tension > 0"),
         optional("torque", &Segment::torque, "N.m", any, "about +z on the face that looks to +z")};
+  }
+};
+
+/// A further shaft, within the first one, around it or beside it, whose speed has a given ratio to
+/// that of the first.
+struct Rotor {
+  std::string name;
+  double ratio = 1.0;          ///< of its speed to that of the first shaft; below 0: against it
+  double z = 0.0;              ///< of its left end, along the axis of the first shaft [m]
+  std::vector<Segment> shaft;  ///< left to right
+  Where where{};
+
+  bool operator==(const Rotor&) const = default;
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        required("ratio", &Rotor::ratio, "", any,
+                 "of its speed to that of the first shaft; below 0: it turns against it"),
+        optional("position", &Rotor::z, "m", nonnegative,
+                 "of its left end, from that of the first shaft")};
   }
 };
 
@@ -140,6 +162,7 @@ struct Body {
   std::string name;
   PlanarMass m;               ///< [kg]; of a body that spins the same along x and y
   bool spins = false;         ///< part of the rotor: unbalance and gyroscopics
+  std::string rotor{};        ///< with which it spins; empty: with the first shaft
   bool tilts = false;         ///< has theta_x, theta_y
   double Id = 0.0, Ip = 0.0;  ///< moments of inertia [kg.m^2], if it tilts
   Where where{};
@@ -157,11 +180,23 @@ struct Body {
   }
 };
 
+/// When a load begins to act, after the start of the recording of a motion; both zero: it always
+/// acts.
+struct Beginning {
+  double time = 0.0;         ///< [s]
+  double revolutions = 0.0;  ///< of the rotor
+
+  bool is_late() const { return time > 0.0 || revolutions > 0.0; }
+  bool operator==(const Beginning&) const = default;
+};
+
 /// A mass off the axis: force moment * Omega^2, turning with the rotor.
 struct Unbalance {
   Station at;
   double moment = 0.0;  ///< mass times eccentricity [kg.m]
   double phase = 0.0;   ///< angle from +x at t = 0 [rad]
+  Beginning begins{};   ///< of simulated motions; all other analyses have it all the time
+  std::string name{};
   bool operator==(const Unbalance&) const = default;
 };
 
@@ -267,6 +302,30 @@ struct Structure {
   Bow bow{};
   std::vector<Force> forces{};
   std::vector<Probe> probes{};
+  std::vector<Rotor> rotors{};  ///< further shafts
+
+  /// A shaft: segments from where it starts, and the ratio of its speed to that of the first one.
+  struct Shaft {
+    const std::vector<Segment>& segments;
+    const std::string& name;  ///< of its rotor; empty: the first shaft
+    double start = 0.0;       ///< [m]
+    double ratio = 1.0;
+
+    double length() const {
+      double sum = 0.0;
+      for (const Segment& segment : segments) sum += segment.length;
+      return sum;
+    }
+    double end() const { return start + length(); }
+  };
+  /// The first shaft, which may have no segments, and those of the rotors.
+  std::vector<Shaft> shafts() const;
+  /// @param number  of a shaft, from 0
+  const std::vector<Segment>& segments_of(int number) const {
+    return number == 0 ? shaft : rotors.at(static_cast<std::size_t>(number) - 1).shaft;
+  }
+  /// Number of the shaft of a rotor, from 0; an empty name is the first shaft, nothing is no rotor.
+  std::optional<int> shaft_named(const std::string& rotor) const;
 
   /// Connections of one kind, with its word in model files.
   struct Connections {
@@ -278,11 +337,10 @@ struct Structure {
     return {{{"bearing", bearings}, {"link", links}, {"seal", seals}}};
   }
 
-  double length() const {
-    double sum = 0.0;
-    for (const Segment& segment : shaft) sum += segment.length;
-    return sum;
-  }
+  /// Of the first shaft.
+  double length() const { return shafts().front().length(); }
+  /// From the left end of the first shaft to the rightmost end of all.
+  double extent() const;
 };
 
 }  // namespace whirl::inline fe

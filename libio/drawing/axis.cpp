@@ -44,13 +44,27 @@ int digits_of(const Axis& axis, double step) {
   return static_cast<int>(std::clamp(digits, 6.0, 17.0));
 }
 
-std::vector<Tick> linear_ticks(const Axis& axis, int most) {
-  const double step = round_up((axis.last - axis.first) / most);
-  const int digits = digits_of(axis, step);
+std::vector<Tick> ticks_every(const Axis& axis, double step) {
   std::vector<Tick> ticks;
   const double from = std::ceil(axis.first / step - slack), to = axis.last / step + slack;
+  // of a range that rounding cannot tell from a point there are none
+  constexpr double most = 1000.0, whole = 1e15;
+  if (!(to - from < most) || !(std::abs(from) < whole)) return ticks;
+  const int digits = digits_of(axis, step);
   for (double i = from; i <= to; ++i) {
     ticks.push_back({i * step, label(i * step, digits)});
+  }
+  return ticks;
+}
+
+/// As many as there is room for, but two at least: one alone tells no size.
+std::vector<Tick> linear_ticks(const Axis& axis, int most) {
+  double step = round_up((axis.last - axis.first) / most);
+  std::vector<Tick> ticks = ticks_every(axis, step);
+  constexpr int tries = 4;
+  for (int i = 0; i < tries && ticks.size() < 2; ++i) {
+    step = round_down(0.75 * step);
+    ticks = ticks_every(axis, step);
   }
   return ticks;
 }
@@ -58,7 +72,14 @@ std::vector<Tick> linear_ticks(const Axis& axis, int most) {
 std::vector<Tick> logarithmic_ticks(const Axis& axis, int most) {
   const int from = static_cast<int>(std::floor(std::log10(axis.first) + slack));
   const int to = static_cast<int>(std::ceil(std::log10(axis.last) - slack));
-  const int stride = std::max(1, (to - from + most) / most);  // powers per label
+  const int low = static_cast<int>(std::ceil(std::log10(axis.first) - slack));
+  const int high = static_cast<int>(std::floor(std::log10(axis.last) + slack));
+  int start = from, stride = std::max(1, (to - from + most) / most);  // powers per label
+  const int next = from + stride * ((low - from + stride - 1) / stride);
+  if (next + stride > high && high > low) {  // two at least where two are seen
+    start = low;
+    stride = (high - low + most) / most;
+  }
   std::vector<Tick> ticks;
   for (int power = from; power <= to; ++power) {
     const double decade = std::pow(10.0, power);
@@ -66,7 +87,7 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis, int most) {
       const double value = digit * decade;
       if (value < axis.first * (1.0 - slack) || value > axis.last * (1.0 + slack)) continue;
       if (digit == 1) {
-        const bool is_labelled = (power - from) % stride == 0;
+        const bool is_labelled = (power - start) % stride == 0;
         ticks.push_back({value, is_labelled ? fmt::format("10^{{{}}}", label(power)) : ""});
       } else if (stride == 1) {
         ticks.push_back({value, ""});

@@ -6,17 +6,30 @@
 
 namespace whirl::inline io {
 
+namespace {
+
+/// Height of a symbol above the shaft, over the rotor's length: it says the polar inertia, and is
+/// seen of a disk without one, too.
+double symbol_height(const Disk& disk, const std::vector<Disk>& all) {
+  constexpr double lowest = 0.015, highest = 0.06;
+  double largest = 0.0;  // of the disks that are drawn so
+  for (const Disk& other : all) {
+    if (!(other.outer_diameter > 0.0)) largest = std::max(largest, other.Ip);
+  }
+  return lowest + (largest > 0.0 ? (highest - lowest) * disk.Ip / largest : 0.0);
+}
+
+}  // namespace
+
 DiskShape disk_shape(const Disk& disk, const Model& model, const Assembler& assembler) {
-  constexpr double symbol_height = 0.04;  // above the shaft, of the rotor's length
   DiskShape shape{0.5 * disk.outer_diameter, 0.5 * std::max(disk.inner_diameter, 0.0), disk.width};
   const bool has_width = disk.width > 0.0, has_diameter = disk.outer_diameter > 0.0;
   const double length = model.structure.length();
   if (!has_width) shape.width = symbol_width * length;
   if (!has_diameter) {
     const Point point = assembler.point(disk.at);
-    const double z = assembler.mesh().z[static_cast<std::size_t>(point.index)];
-    const double shaft = 0.5 * shaft_diameter(model.structure, assembler.mesh(), z);
-    shape.outer_radius = shaft + symbol_height * length;
+    const double shaft = 0.5 * diameter_at(model.structure, assembler.mesh(), point.index);
+    shape.outer_radius = shaft + symbol_height(disk, model.structure.disks) * length;
     double touched = 0.0;
     for (const Contact& c : model.contacts) {
       if (assembler.point(c.at) == point) touched = std::max(touched, c.friction.radius);
@@ -29,7 +42,7 @@ DiskShape disk_shape(const Disk& disk, const Model& model, const Assembler& asse
 
 std::string legend_name(const DiskShape& shape) {
   if (shape.not_given.empty()) return "disk";
-  return fmt::format("disk, {} not given (symbol)", shape.not_given);
+  return fmt::format("disk, {} not given (not to scale)", shape.not_given);
 }
 
 }  // namespace whirl::inline io

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -124,7 +125,29 @@ Rgb color_at(ColorMap map, double place) {
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
+std::vector<LegendEntry> legend_of(const Figure& figure) {
+  std::vector<LegendEntry> entries;
+  const auto add = [&](const LegendEntry& entry) {
+    const bool is_known = std::any_of(entries.begin(), entries.end(), [&](const LegendEntry& e) {
+      return e.name() == entry.name();
+    });
+    if (!entry.name().empty() && !is_known) entries.push_back(entry);
+  };
+  for (const Panel& p : figure.panels) {
+    for (const Category& c : p.cells.categories) add({nullptr, &c});
+    for (const Curve& c : p.curves) add({&c, nullptr});
+  }
+  return entries;
+}
+
 DisplayUnit unit_for(double largest, const std::string& si_unit) {
+  if (const auto* choice = shown_units().choice(si_unit)) {
+    const ShownUnit* unit = &choice->front();
+    for (const ShownUnit& larger : *choice) {
+      if (largest >= larger.least) unit = &larger;
+    }
+    return {unit->name, 1.0 / unit->size};
+  }
   if (si_unit == "rad/s") return {"rpm", 1.0 / rpm};
   if (si_unit == "m" || si_unit == "N" || si_unit == "N/m" || si_unit == "s") {
     // metres and seconds without a prefix above one

@@ -185,6 +185,15 @@ struct Figure {
   double width = 720.0, height = 480.0;  ///< [pixels], of the panels and titles
 };
 
+/// What stands in the legend of a figure.
+struct LegendEntry {
+  const Curve* curve = nullptr;
+  const Category* category = nullptr;  ///< of cells, where it is no curve
+  const std::string& name() const { return curve ? curve->name : category->name; }
+};
+/// Each name once, in their order.
+std::vector<LegendEntry> legend_of(const Figure& figure);
+
 /// A range of numbers as an axis shows them.
 ///
 ///   unit_for(0.003, "m") = {"mm", 1e3}

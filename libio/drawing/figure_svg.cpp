@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "libio/drawing/panel_layout.hpp"
 #include "libio/drawing/panel_svg.hpp"
@@ -14,27 +15,6 @@ using namespace figure_style;
 
 namespace {
 
-/// What stands in the legend below the panels: each name once.
-struct Entry {
-  const Curve* curve = nullptr;
-  const Category* category = nullptr;
-  const std::string& name() const { return curve ? curve->name : category->name; }
-};
-
-std::vector<Entry> legend_of(const Figure& figure) {
-  std::vector<Entry> entries;
-  const auto add = [&](const Entry& entry) {
-    const bool is_known = std::any_of(entries.begin(), entries.end(),
-                                      [&](const Entry& e) { return e.name() == entry.name(); });
-    if (!entry.name().empty() && !is_known) entries.push_back(entry);
-  };
-  for (const Panel& p : figure.panels) {
-    for (const Category& c : p.cells.categories) add({nullptr, &c});
-    for (const Curve& c : p.curves) add({&c, nullptr});
-  }
-  return entries;
-}
-
 /// Draws the legend from a height on; the height below it.
 double draw_legend(Svg& svg, const Figure& figure, double y, const Rooms& rooms) {
   const auto entries = legend_of(figure);
@@ -43,7 +23,7 @@ double draw_legend(Svg& svg, const Figure& figure, double y, const Rooms& rooms)
   svg.begin_group("legend");
   double x = rooms.margin;
   y += rooms.row;
-  for (const Entry& e : entries) {
+  for (const LegendEntry& e : entries) {
     const double sample = rooms.sample, gap = is_tight ? 4.0 : 6.0;
     const double letters_share = is_tight ? 1.0 : 0.88;  // of the estimate, which is a wide one
     const double width = sample + gap + 2.0 + letters_share * text_width(e.name(), small_letters) +
@@ -74,42 +54,6 @@ double draw_legend(Svg& svg, const Figure& figure, double y, const Rooms& rooms)
   return y + 6.0;
 }
 
-/// Widths of a table's columns.
-std::vector<double> column_widths(const FigureTable& t) {
-  std::vector<double> widths(t.header.size());
-  for (std::size_t c = 0; c < widths.size(); ++c) {
-    widths[c] = text_width(t.header[c], small_letters) + 16.0;
-    for (const auto& r : t.rows) {
-      if (c < r.size()) widths[c] = std::max(widths[c], text_width(r[c], small_letters) + 16.0);
-    }
-  }
-  return widths;
-}
-
-double draw_table(Svg& svg, const Figure& figure, double y, const Rooms& rooms) {
-  const FigureTable& t = figure.table;
-  if (t.rows.empty()) return y;
-  const std::vector<double> widths = column_widths(t);
-  const auto line = [&](const std::vector<std::string>& cells, bool is_bold) {
-    double x = rooms.margin;
-    y += rooms.row;
-    for (std::size_t c = 0; c < std::min(cells.size(), widths.size()); ++c) {
-      svg.text({x, y}, cells[c],
-               {.size = small_letters, .color = color_of(Paint::ink), .is_bold = is_bold});
-      x += widths[c];
-    }
-  };
-  svg.begin_group("table");
-  y += 4.0;
-  line(t.header, true);
-  svg.line({rooms.margin, y + 5.0}, {figure.width - 16.0, y + 5.0},
-           {color_of(Paint::gray), 0.8, ""});
-  y += 3.0;
-  for (const auto& r : t.rows) line(r, false);
-  svg.end_group();
-  return y + 6.0;
-}
-
 /// Words in lines that fit a width.
 std::vector<std::string> wrapped(const std::string& text, double width) {
   std::vector<std::string> lines(1);
@@ -125,6 +69,61 @@ std::vector<std::string> wrapped(const std::string& text, double width) {
     from = to + 1;
   }
   return lines;
+}
+
+/// Takes from the widest columns what does not fit into a width: their cells are wrapped.
+void fit(std::vector<double>& widths, double room) {
+  constexpr double narrowest = 90.0;
+  double all = std::accumulate(widths.begin(), widths.end(), 0.0);
+  while (all > room) {
+    double& widest = *std::max_element(widths.begin(), widths.end());
+    if (widest <= narrowest) return;
+    const double less = std::min({all - room, widest - narrowest, 20.0});
+    widest -= less;
+    all -= less;
+  }
+}
+
+/// Widths of a table's columns.
+std::vector<double> column_widths(const FigureTable& t) {
+  std::vector<double> widths(t.header.size());
+  for (std::size_t c = 0; c < widths.size(); ++c) {
+    widths[c] = text_width(t.header[c], small_letters) + 16.0;
+    for (const auto& r : t.rows) {
+      if (c < r.size()) widths[c] = std::max(widths[c], text_width(r[c], small_letters) + 16.0);
+    }
+  }
+  return widths;
+}
+
+double draw_table(Svg& svg, const Figure& figure, double y, const Rooms& rooms) {
+  const FigureTable& t = figure.table;
+  if (t.rows.empty()) return y;
+  std::vector<double> widths = column_widths(t);
+  fit(widths, figure.width - rooms.margin - 16.0);
+  const auto line = [&](const std::vector<std::string>& cells, bool is_bold) {
+    double x = rooms.margin;
+    std::size_t lines = 1;
+    for (std::size_t c = 0; c < std::min(cells.size(), widths.size()); ++c) {
+      const std::vector<std::string> parts = wrapped(cells[c], widths[c] - 8.0);
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        svg.text({x, y + rooms.row * static_cast<double>(i + 1)}, parts[i],
+                 {.size = small_letters, .color = color_of(Paint::ink), .is_bold = is_bold});
+      }
+      lines = std::max(lines, parts.size());
+      x += widths[c];
+    }
+    y += rooms.row * static_cast<double>(lines);
+  };
+  svg.begin_group("table");
+  y += 4.0;
+  line(t.header, true);
+  svg.line({rooms.margin, y + 5.0}, {figure.width - 16.0, y + 5.0},
+           {color_of(Paint::gray), 0.8, ""});
+  y += 3.0;
+  for (const auto& r : t.rows) line(r, false);
+  svg.end_group();
+  return y + 6.0;
 }
 
 /// Draws title and subtitle; the height below them.
@@ -160,6 +159,7 @@ double draw_notes(Svg& svg, const Figure& figure, double y, const Rooms& rooms) 
 
 /// Pixels of a screen, of which CSS and rsvg-convert have 96 per inch.
 constexpr double pixels_per_mm = 96.0 / 25.4, points_per_pixel = 0.75;
+constexpr double own_font = 9.0, given_font = 8.0;  ///< letters where none are asked for [pt]
 
 /// Height of what a drawing function draws.
 template <class Draw>
@@ -265,8 +265,12 @@ Picture sized(Figure figure, const PictureSize& size) {
 
 }  // namespace
 
+double pixels_per_point(const PictureSize& size) {
+  const double font = size.font > 0.0 ? size.font : size.is_given() ? given_font : own_font;
+  return small_letters / font;
+}
+
 Picture picture_of(const Figure& figure, const PictureSize& size) {
-  constexpr double own_font = 9.0, given_font = 8.0;  // [pt]
   if (size.is_given() || size.font > 0.0) {
     PictureSize full = size;
     if (!(full.font > 0.0)) full.font = size.is_given() ? given_font : own_font;

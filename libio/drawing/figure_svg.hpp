@@ -16,6 +16,9 @@ struct PictureSize {
   bool is_given() const { return width > 0.0; }
 };
 
+/// Pixels of a figure in a point of its printed picture.
+double pixels_per_point(const PictureSize& size);
+
 struct Picture {
   std::string svg;
   std::vector<std::string> left_out;  ///< what had no room, for people

@@ -51,10 +51,13 @@ struct Grid {
         columns(static_cast<std::size_t>(std::max(1, f.columns))),
         count(f.panels.size()),
         rows((count + columns - 1) / columns) {}
-  /// Whether a panel shares x with the one below it.
+  /// Whether a panel shares x with the one below it: the names are equal, and neither panel has
+  /// equal scales (such a panel has a range of its own).
   bool shares_axis(std::size_t i) const {
-    return i + columns < count && !figure.panels[i].x.title.empty() &&
-           figure.panels[i].x.title == figure.panels[i + columns].x.title;
+    if (i + columns >= count) return false;
+    const Panel &upper = figure.panels[i], &lower = figure.panels[i + columns];
+    return !upper.x.title.empty() && upper.x.title == lower.x.title && !upper.has_equal_scales &&
+           !lower.has_equal_scales;
   }
 };
 

@@ -148,10 +148,57 @@ class PanelTexts {
   std::vector<TextBox> boxes_;
 };
 
+/// Whether a rule crosses what is seen of a panel.
+bool is_seen(const PanelFrame& f, const Rule& r) {
+  constexpr double slack = 1e-9;
+  const auto is_on = [](const Axis& axis, double value) {
+    const double place = axis.place(value);
+    return place >= -slack && place <= 1.0 + slack;
+  };
+  if (r.kind == Rule::Kind::vertical) return is_on(f.x, r.at);
+  if (r.kind == Rule::Kind::horizontal) return is_on(f.y, r.at);
+  const auto [low, high] = std::minmax({r.at * f.x.first, r.at * f.x.last});
+  return low < f.y.last && high > f.y.first;
+}
+
+/// A line through zero: from where to where it is seen, and its name there.
+struct SlopeEnds {
+  Pixel from, to, name;
+  Anchor anchor;
+};
+
+/// Through the panel to its right or upper edge; a line that falls, where all is above zero, to the
+/// left or upper one.
+SlopeEnds slope_ends(const PanelFrame& f, double slope) {
+  const auto at = [&](double x) { return f.at(x, slope * x); };
+  if (slope < 0.0 && f.y.first >= 0.0) {
+    const bool is_left = f.y.last / slope <= f.x.first;
+    const Pixel to = at(is_left ? f.x.first : f.y.last / slope);
+    return {at(std::min(f.x.last, f.y.first / slope)),
+            to,
+            {to.x + 4.0, to.y + (is_left ? -3.0 : 14.0)},
+            Anchor::start};
+  }
+  double x = f.x.last;
+  if (slope * x > f.y.last) x = f.y.last / slope;
+  if (slope * x < f.y.first) x = f.y.first / slope;
+  const auto [low, high] = std::minmax({f.y.first / slope, f.y.last / slope});
+  const Pixel to = at(x);
+  const bool is_right = x >= f.x.last * (1.0 - 1e-9);
+  const bool is_outside = is_right && !is_tight(f);  // inside, names of curves are not in the way
+  return {at(std::clamp(f.x.first, low, high)),
+          to,
+          {to.x + (is_outside ? 5.0 : -4.0), to.y + (is_outside ? 4.0
+                                                     : is_right ? -3.0
+                                                                : 14.0)},
+          is_outside ? Anchor::start : Anchor::end};
+}
+
 void draw_rules(Svg& svg, const PanelFrame& f, PanelTexts& texts) {
   for (const Rule& r : f.panel->rules) {
     const Stroke stroke{color_of(r.paint), 1.1, dashes_of(r.dash)};
     TextStyle style{.size = small_letters, .color = text_color_of(r.paint), .has_halo = true};
+    if (!is_seen(f, r)) continue;
     svg.begin_group(r.name);
     if (r.kind == Rule::Kind::vertical) {
       const double x = f.at(r.at, f.y.first).x;
@@ -168,21 +215,11 @@ void draw_rules(Svg& svg, const PanelFrame& f, PanelTexts& texts) {
       } else if (!has_end_names(*f.panel)) {
         svg.text({f.right() + 5.0, y + 4.0}, r.name, style);
       }
-    } else {  // through the panel to its right or upper edge
-      double x = f.x.last, y = r.at * f.x.last;
-      if (y > f.y.last) y = f.y.last, x = y / r.at;
-      if (y < f.y.first) y = f.y.first, x = y / r.at;
-      const double from = std::clamp(f.x.first, f.y.first / r.at, f.y.last / r.at);
-      svg.line(f.at(from, r.at * from), f.at(x, y), stroke);
-      const Pixel end = f.at(x, y);
-      const bool is_right = x >= f.x.last * (1.0 - 1e-9);
-      const bool is_outside =
-          is_right && !is_tight(f);  // inside, names of curves are not in the way
-      style.anchor = is_outside ? Anchor::start : Anchor::end;
-      texts.add({end.x + (is_outside ? 5.0 : -4.0), end.y + (is_outside ? 4.0
-                                                             : is_right ? -3.0
-                                                                        : 14.0)},
-                r.name, style);
+    } else {
+      const SlopeEnds ends = slope_ends(f, r.at);
+      svg.line(ends.from, ends.to, stroke);
+      style.anchor = ends.anchor;
+      texts.add(ends.name, r.name, style);
     }
     svg.end_group();
   }
@@ -205,7 +242,7 @@ std::vector<std::vector<Pixel>> runs_of(const PanelFrame& f, const Curve& c) {
       continue;
     }
     const Pixel p = f.at(c.x[i], c.y[i]);
-    const double far = f.width + f.height;  // points outside matter as ends of lines only
+    const double far = 50.0 * (f.width + f.height);  // ends of lines that are seen, if nearer
     if (p.x < f.corner.x - far || p.x > f.right() + far) {
       finish();
       if (!runs.back().empty()) runs.emplace_back();
@@ -252,8 +289,9 @@ void draw_markers(Svg& svg, const PanelFrame& f, const Curve& c) {
   for (std::size_t i = every / 2; i < c.x.size(); i += every) {
     if (!has_place(*f.panel, c.x[i], c.y[i])) continue;
     const Pixel p = f.at(c.x[i], c.y[i]);
-    const bool is_seen = p.x > f.corner.x - 9.0 && p.x < f.right() + 9.0 &&
-                         p.y > f.corner.y - 9.0 && p.y < f.floor() + 9.0;
+    constexpr double rounding = 0.5;  // [pixels]: points on the frame are whole
+    const bool is_seen = p.x > f.corner.x - rounding && p.x < f.right() + rounding &&
+                         p.y > f.corner.y - rounding && p.y < f.floor() + rounding;
     if (is_seen) places.push_back(p);
   }
   if (c.size < 3.0) {
@@ -289,8 +327,8 @@ void draw_end_names(Svg& svg, const PanelFrame& f) {
     for (std::size_t i = 0; i < c.x.size() && !c.end_name.empty(); ++i) {
       if (!has_place(*f.panel, c.x[i], c.y[i])) continue;
       const Pixel p = f.at(c.x[i], c.y[i]);
-      const bool is_seen =
-          p.x <= f.right() + 1.0 && p.y >= f.corner.y - 1.0 && p.y <= f.floor() + 1.0;
+      const bool is_seen = p.x >= f.corner.x - 1.0 && p.x <= f.right() + 1.0 &&
+                           p.y >= f.corner.y - 1.0 && p.y <= f.floor() + 1.0;
       if (is_seen && p.x > end.place.x) end.place = p;
     }
     if (end.place.x < 0.0) continue;

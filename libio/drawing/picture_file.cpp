@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double least_side = 20.0, most_side = 2000.0;  ///< of a picture [mm]
-constexpr double least_font = 4.0, most_font = 40.0;     ///< [pt]
+constexpr double least_side = 20.0, most_side = 2000.0;   ///< of a picture [mm]
+constexpr double least_font = 4.0, most_font = 40.0;      ///< [pt]
+constexpr double least_marker = 0.1, most_marker = 40.0;  ///< [pt]
 
 /// Lets rsvg-convert make another format of an SVG file.
 void convert(const fs::path& svg, const fs::path& to, const PictureFileOptions& options) {
@@ -74,12 +75,23 @@ Parsed<PrintedSides> parse_sides(std::string_view text) {
                   least_side, most_side));
 }
 
-Parsed<double> parse_font(std::string_view text) {
+namespace {
+
+Parsed<double> parse_points(std::string_view text, double least, double most) {
   const double size = std::strtod(std::string(text).c_str(), nullptr);
   const bool is_number = text.find_first_not_of("0123456789.") == std::string_view::npos;
-  if (is_number && size >= least_font && size <= most_font) return size;
-  return Parsed<double>::failed(
-      fmt::format("expected points, {:g} to {:g}", least_font, most_font));
+  if (is_number && size >= least && size <= most) return size;
+  return Parsed<double>::failed(fmt::format("expected points, {:g} to {:g}", least, most));
+}
+
+}  // namespace
+
+Parsed<double> parse_font(std::string_view text) {
+  return parse_points(text, least_font, most_font);
+}
+
+Parsed<double> parse_marker_size(std::string_view text) {
+  return parse_points(text, least_marker, most_marker);
 }
 
 void write_picture(const std::string& svg, const fs::path& place,

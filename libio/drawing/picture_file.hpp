@@ -32,6 +32,9 @@ Parsed<PrintedSides> parse_sides(std::string_view text);
 /// Reads the size of letters, a number of points without unit.
 Parsed<double> parse_font(std::string_view text);
 
+/// Reads the size of markers, a number of points without unit.
+Parsed<double> parse_marker_size(std::string_view text);
+
 struct PictureFileOptions {
   PictureFormat format = PictureFormat::svg;
   bool is_printed = false;  ///< its size is one on paper: PNG gets as many pixels as print needs

@@ -7,11 +7,18 @@
 #include <vector>
 
 #include "libio/drawing/disk_shape.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl::inline io {
 
 namespace {
+
+/// " (250 mm)"
+std::string place_text(double z) {
+  const std::string unit = shown_unit("mm").name;
+  return fmt::format(" ({}{}{})", shown_digits(z, "mm", 6), unit.empty() ? "" : " ", unit);
+}
 
 constexpr int half_rows = 4;  ///< above and below the axis
 
@@ -25,9 +32,7 @@ struct Mark {
 std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
   std::vector<Mark> all;
   const auto place = [&](const Station& station) {
-    const Point p = assembler.point(station);
-    return p.kind == Point::Kind::node ? assembler.mesh().z[static_cast<std::size_t>(p.index)]
-                                       : -1.0;
+    return assembler.mesh().position_of(assembler.point(station)).value_or(-1.0);
   };
   for (const Connection& b : model.structure.bearings) all.push_back({place(b.from), "▲", b.name});
   for (const Connection& s : model.structure.seals) all.push_back({place(s.from), "≋", s.name});
@@ -61,85 +66,121 @@ bool is_flat(const std::vector<double>& radii) {
 
 std::string legend(const Structure& s, bool has_disk, bool has_symbol) {
   return std::string("  ▲ bearing   ") + (s.seals.empty() ? "" : "≋ seal   ") + "◯ contact" +
-         (has_disk ? "   ▓ disk" : "") + (has_symbol ? "\n  ╎ disk, size not given (symbol)" : "");
+         (has_disk ? "   ▓ disk" : "") +
+         (has_symbol ? "\n  ╎ disk, size not given (not to scale)" : "");
+}
+
+/// Radii over the columns of the picture.
+struct Outline {
+  std::vector<double> shaft, disk, symbol;  ///< a symbol stands for a disk without a size
+  double largest = 0.0;
+};
+
+/// The column of each position along the rotor.
+struct Columns {
+  double length;
+  int count;
+  int of(double z) const {
+    return std::clamp(static_cast<int>(std::lround(z / length * (count - 1))), 0, count - 1);
+  }
+};
+
+Outline outline(const Model& model, const Assembler& assembler, const Columns& columns) {
+  const Structure& s = model.structure;
+  const auto count = static_cast<std::size_t>(columns.count);
+  Outline outline{std::vector<double>(count), std::vector<double>(count),
+                  std::vector<double>(count)};
+  const int shafts = static_cast<int>(s.shafts().size());
+  for (int c = 0; c < columns.count; ++c) {
+    double& radius = outline.shaft[static_cast<std::size_t>(c)];
+    const double z = columns.length * (c + 0.5) / columns.count;
+    for (int of = 0; of < shafts; ++of)
+      radius = std::max(radius, 0.5 * shaft_diameter(s, assembler.mesh(), z, of));
+    outline.largest = std::max(outline.largest, radius);
+  }
+  for (const Disk& d : s.disks) {
+    const double z = assembler.mesh().z[static_cast<std::size_t>(assembler.point(d.at).index)];
+    const DiskShape shape = disk_shape(d, model, assembler);
+    const int middle = columns.of(z);
+    const int half =
+        static_cast<int>(std::lround(0.5 * shape.width / columns.length * columns.count));
+    std::vector<double>& to = shape.not_given.empty() ? outline.disk : outline.symbol;
+    for (int c = std::max(0, middle - half); c <= std::min(columns.count - 1, middle + half); ++c) {
+      double& radius = to[static_cast<std::size_t>(c)];
+      radius = std::max(radius, shape.outer_radius);
+    }
+    outline.largest = std::max(outline.largest, shape.outer_radius);
+  }
+  return outline;
+}
+
+/// The line without blanks at its end, indented.
+std::string indented(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line.empty() ? "" : "  " + line + "\n";
+}
+
+std::string rows_of(const Outline& outline) {
+  std::string text;
+  for (int row = half_rows; row >= -half_rows; --row) {
+    std::string line;
+    const double inner_edge = (std::abs(row) - 0.5) / half_rows * outline.largest;
+    for (std::size_t c = 0; c < outline.shaft.size(); ++c) {
+      const bool in_shaft =
+          row == 0 || inner_edge < outline.shaft[c] - 0.25 * outline.largest / half_rows;
+      line += in_shaft                         ? "█"
+              : inner_edge < outline.disk[c]   ? "▓"
+              : inner_edge < outline.symbol[c] ? "╎"
+                                               : " ";
+    }
+    text += indented(line);
+  }
+  return text;
+}
+
+/// Marks in one line, names below, each in the first line where it has room.
+std::string lines_of(const std::vector<Mark>& all, const Columns& columns) {
+  std::vector<std::string> signs(static_cast<std::size_t>(columns.count), " ");
+  std::vector<std::vector<std::string>> lines;
+  for (const Mark& m : all) {
+    const int c = columns.of(m.z);
+    std::string& sign = signs[static_cast<std::size_t>(c)];
+    sign = sign == " " || sign == "┃" ? m.sign : sign;
+    const std::string label = shortened(m.name, place_text(m.z), columns.count);
+    const int width = static_cast<int>(display_width(label));
+    const int start = std::clamp(c - width / 2, 0, std::max(0, columns.count - width));
+    for (std::size_t i = 0;; ++i) {
+      if (i == lines.size()) lines.emplace_back(static_cast<std::size_t>(columns.count), " ");
+      auto& line = lines[i];
+      const int from = std::max(0, start - 1), to = std::min(columns.count, start + width + 1);
+      const bool is_free = std::all_of(line.begin() + from, line.begin() + to,
+                                       [](const std::string& cell) { return cell == " "; });
+      if (!is_free) continue;
+      line[static_cast<std::size_t>(start)] = label;
+      for (int k = 1; k < width && start + k < columns.count; ++k)
+        line[static_cast<std::size_t>(start + k)] = "";
+      break;
+    }
+  }
+  if (!all.empty()) lines.insert(lines.begin(), signs);
+  std::string text;
+  for (const auto& cells : lines) {
+    std::string line;
+    for (const std::string& cell : cells) line += cell;
+    text += indented(line);
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string draw_layout(const Model& model, const Assembler& assembler, int columns) {
   const Structure& s = model.structure;
-  const double length = s.length();
-  if (!(length > 0.0)) return "";
-  const auto column = [&](double z) {
-    return std::clamp(static_cast<int>(std::lround(z / length * (columns - 1))), 0, columns - 1);
-  };
-  // radii of shaft, disks and symbols of disks in every column
-  std::vector<double> shaft(static_cast<std::size_t>(columns)), disk(shaft.size()),
-      symbol(shaft.size());
-  double largest = 0.0;
-  for (int c = 0; c < columns; ++c) {
-    shaft[static_cast<std::size_t>(c)] =
-        0.5 * shaft_diameter(s, assembler.mesh(), length * (c + 0.5) / columns);
-    largest = std::max(largest, shaft[static_cast<std::size_t>(c)]);
-  }
-  for (const Disk& d : s.disks) {
-    const double z = assembler.mesh().z[static_cast<std::size_t>(assembler.point(d.at).index)];
-    const DiskShape shape = disk_shape(d, model, assembler);
-    const int middle = column(z),
-              half = static_cast<int>(std::lround(0.5 * shape.width / length * columns));
-    std::vector<double>& to = shape.not_given.empty() ? disk : symbol;
-    for (int c = std::max(0, middle - half); c <= std::min(columns - 1, middle + half); ++c) {
-      double& radius = to[static_cast<std::size_t>(c)];
-      radius = std::max(radius, shape.outer_radius);
-    }
-    largest = std::max(largest, shape.outer_radius);
-  }
-
-  std::string text;
-  for (int row = half_rows; row >= -half_rows; --row) {
-    std::string line;
-    for (std::size_t c = 0; c < shaft.size(); ++c) {
-      const double at = (std::abs(row) - 0.5) / half_rows * largest;  // inner edge of the row
-      const bool in_shaft = row == 0 || at < shaft[c] - 0.25 * largest / half_rows;
-      line += in_shaft ? "█" : at < disk[c] ? "▓" : at < symbol[c] ? "╎" : " ";
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    if (line.empty()) continue;
-    text += "  " + line + "\n";
-  }
-
-  // marks in one line, names below, each in the first line where it has room
-  const std::vector<Mark> all = marks(model, assembler);
-  std::vector<std::string> signs(static_cast<std::size_t>(columns), " ");
-  std::vector<std::vector<std::string>> lines;
-  for (const Mark& m : all) {
-    const int c = column(m.z);
-    std::string& sign = signs[static_cast<std::size_t>(c)];
-    sign = sign == " " || sign == "┃" ? m.sign : sign;
-    const std::string label = shortened(m.name, fmt::format(" ({:g} mm)", 1e3 * m.z), columns);
-    const int width = static_cast<int>(display_width(label));
-    const int start = std::clamp(c - width / 2, 0, std::max(0, columns - width));
-    for (std::size_t i = 0;; ++i) {
-      if (i == lines.size()) lines.emplace_back(static_cast<std::size_t>(columns), " ");
-      auto& line = lines[i];
-      const int from = std::max(0, start - 1), to = std::min(columns, start + width + 1);
-      const bool is_free = std::all_of(line.begin() + from, line.begin() + to,
-                                       [](const std::string& cell) { return cell == " "; });
-      if (!is_free) continue;
-      line[static_cast<std::size_t>(start)] = label;
-      for (int k = 1; k < width && start + k < columns; ++k)
-        line[static_cast<std::size_t>(start + k)] = "";
-      break;
-    }
-  }
-  if (!all.empty()) lines.insert(lines.begin(), signs);
-  for (const auto& cells : lines) {
-    std::string line;
-    for (const std::string& cell : cells) line += cell;
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += "  " + line + "\n";
-  }
-  return text + "\n" + legend(s, !is_flat(disk), !is_flat(symbol)) + "\n";
+  const Columns places{s.extent(), columns};
+  if (!(places.length > 0.0)) return "";
+  const Outline radii = outline(model, assembler, places);
+  return rows_of(radii) + lines_of(marks(model, assembler), places) + "\n" +
+         legend(s, !is_flat(radii.disk), !is_flat(radii.symbol)) + "\n";
 }
 
 }  // namespace whirl::inline io

@@ -111,7 +111,7 @@ void add_cells(const Structure& s, const Mesh& mesh, const std::string& group, R
     cells.add(e, part, from, end, number);
   };
   for (const MeshElement& e : mesh.elements) {
-    add(e, s.shaft[static_cast<std::size_t>(e.segment)], e.from, e.to, 0);
+    add(e, s.segments_of(e.shaft)[static_cast<std::size_t>(e.segment)], e.from, e.to, 0);
   }
   for (const MeshLayer& piece : mesh.layers) {
     add(mesh.elements[static_cast<std::size_t>(piece.element)],

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "libbase/error.hpp"
@@ -42,9 +44,15 @@ fs::path renderer() {
   return fs::read_symlink("/proc/self/exe", ignored).replace_filename("whirl_render");
 }
 
+/// How many pictures the renderer has told to be drawn, a dot each.
+long drawn_so_far(const fs::path& output) {
+  std::ifstream file(output);
+  return std::count(std::istreambuf_iterator<char>(file), {}, '.');
+}
+
 /// Lets the renderer draw a series, on a display of its own where there is none.
 void render(const fs::path& series, const fs::path& to, const VideoOptions& options,
-            const fs::path& output) {
+            const fs::path& output, long frames) {
   const auto fail = [&](const std::string& why) {
     throw FileError(fmt::format("cannot draw {}: {}", options.place.string(), why));
   };
@@ -67,7 +75,9 @@ void render(const fs::path& series, const fs::path& to, const VideoOptions& opti
     words.insert(words.begin(),
                  {"xvfb-run", "-a", "-s", fmt::format("-screen 0 {}x{}x24", width, height)});
   }
-  const std::optional<int> status = run_program(words, output);
+  const auto tell = [&] { options.progress(drawn_so_far(output), frames); };
+  const std::optional<int> status =
+      options.progress ? run_program(words, output, tell) : run_program(words, output);
   if (!status) {
     fail("there is no display, and no xvfb-run (Debian packages xvfb and xauth) to do without");
   }
@@ -78,34 +88,41 @@ void render(const fs::path& series, const fs::path& to, const VideoOptions& opti
   }
 }
 
-/// Makes a video .gif, played in a loop, of the pictures video_0001.png, ...; VTK does not write
-/// it.
-void make_gif(const Folder& folder, long rate) {
-  const std::string to = folder.path() / "video.gif";
-  const std::vector<std::string> with_ffmpeg{
-      "ffmpeg",
-      "-y",
-      "-framerate",
-      fmt::format("{}", rate),
-      "-i",
-      (folder.path() / "video_%04d.png").string(),
-      "-filter_complex",
-      "split[a][b];[a]palettegen=stats_mode=full[colors];[b][colors]paletteuse",
-      to};
-  std::vector<std::string> with_imagemagick{
-      "convert", "-delay", fmt::format("{:.3g}", 100.0 / static_cast<double>(rate)), "-loop", "0"};
-  for (const fs::path& picture : folder.files(".png")) with_imagemagick.push_back(picture.string());
-  with_imagemagick.insert(with_imagemagick.end(),
-                          {"+dither", "+remap", "-layers", "OptimizeFrame", to});
-  bool is_there = false;
-  for (const auto& words : {with_ffmpeg, with_imagemagick}) {
-    const std::optional<int> status = run_program(words, folder.output());
-    if (status == 0 && fs::exists(to)) return;
-    is_there = is_there || status.has_value();
+/// The call that makes a video of the pictures video_0001.png, ...
+std::vector<std::string> maker(const Folder& folder, const std::string& ending, long rate,
+                               bool has_ffmpeg) {
+  const std::string to = (folder.path() / "video").string() + ending;
+  if (!has_ffmpeg) {  // a .gif; one palette for all pictures would take ten times as long
+    std::vector<std::string> words{"convert", "-delay",
+                                   fmt::format("{:.3g}", 100.0 / static_cast<double>(rate)),
+                                   "-loop", "0"};
+    for (const fs::path& picture : folder.files(".png")) words.push_back(picture.string());
+    words.insert(words.end(), {"+dither", "-colors", "64", to});
+    return words;
   }
-  throw FileError(is_there ? fmt::format("cannot make a .gif: {}", last_words(folder.output()))
-                           : "a .gif is made with ffmpeg or convert (Debian packages ffmpeg and "
-                             "imagemagick), and neither is there; .ogv and .png need none of them");
+  std::vector<std::string> words{"ffmpeg",     "-y",
+                                 "-loglevel",  "error",
+                                 "-framerate", fmt::format("{}", rate),
+                                 "-i",         (folder.path() / "video_%04d.png").string()};
+  if (ending == ".gif") {
+    words.insert(words.end(),
+                 {"-filter_complex",
+                  "split[a][b];[a]palettegen=stats_mode=full[colors];[b][colors]paletteuse"});
+  } else {  // what players and slides take: even sides, colors halved
+    words.insert(words.end(), {"-vf", "scale=trunc(iw/2)*2:trunc(ih/2)*2", "-c:v", "libx264",
+                               "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart"});
+  }
+  words.push_back(to);
+  return words;
+}
+
+/// Makes a video .gif, played in a loop, or .mp4 of the pictures; VTK writes neither.
+void make_video(const Folder& folder, const std::string& ending, long rate) {
+  const std::vector<std::string> words =
+      maker(folder, ending, rate, program_named("ffmpeg").has_value());
+  if (run_program(words, folder.output()) == 0) return;
+  throw FileError(
+      fmt::format("cannot make a {}: {}: {}", ending, words.front(), last_words(folder.output())));
 }
 
 }  // namespace
@@ -127,11 +144,19 @@ Parsed<PixelSize> parse_pixels(std::string_view text) {
 
 void require_video_place(const VideoOptions& options) {
   const std::string ending = options.place.extension();
-  if (ending != ".ogv" && ending != ".gif" && ending != ".png") {
+  if (ending != ".mp4" && ending != ".gif" && ending != ".ogv" && ending != ".png") {
     throw wrong_option("out", options.place.string(),
-                       "expected a video .ogv or .gif, or pictures .png");
+                       "expected a video .mp4, .gif or .ogv, or pictures .png");
   }
   FileReplacement{options.place, options.replaces};
+  const bool needs_ffmpeg = ending == ".mp4" || (ending == ".gif" && !program_named("convert"));
+  if (needs_ffmpeg && !program_named("ffmpeg")) {
+    throw FileError(fmt::format(
+        "cannot write {}: a {} is made with ffmpeg{}, which is not there; .ogv and .png need none",
+        options.place.string(), ending,
+        ending == ".gif" ? " or ImageMagick (Debian packages ffmpeg, imagemagick)"
+                         : " (Debian package ffmpeg)"));
+  }
 }
 
 std::vector<fs::path> write_video(const VtkScene& scene, const std::vector<VtkFrame>& frames,
@@ -143,11 +168,12 @@ std::vector<fs::path> write_video(const VtkScene& scene, const std::vector<VtkFr
   write_vtk_series(series, scene, frames);
   VideoOptions titled = options;
   if (!symbols_told(scene).empty()) {
-    titled.title = "Broken plates: symbols of disks whose size is not given\n" + options.title;
+    titled.title = "Broken plates, not to scale: disks whose size is not given\n" + options.title;
   }
-  render(series, folder.path() / (ending == ".gif" ? "video.png" : "video" + ending), titled,
-         folder.output());
-  if (ending == ".gif") make_gif(folder, options.rate);
+  const bool is_made_of_pictures = ending == ".gif" || ending == ".mp4";
+  render(series, folder.path() / (is_made_of_pictures ? "video.png" : "video" + ending), titled,
+         folder.output(), std::ssize(frames));
+  if (is_made_of_pictures) make_video(folder, ending, options.rate);
   std::vector<fs::path> places;
   for (const fs::path& drawn : folder.files(ending)) {
     // "video_0001.png" is that of "NAME.png"

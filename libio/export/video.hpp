@@ -2,6 +2,7 @@
 /// Videos of a scene, drawn by whirl_render, a program of its own that has VTK's rendering.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,16 +20,18 @@ struct PixelSize {
 Parsed<PixelSize> parse_pixels(std::string_view text);
 
 struct VideoOptions {
-  std::filesystem::path place;  ///< .ogv or .gif, or .png: a picture per frame, numbered
+  std::filesystem::path place;  ///< .mp4, .gif or .ogv, or .png: a picture per frame, numbered
   PixelSize size{};
   long rate = 25;       ///< frames per second
   std::string title{};  ///< in the picture
   Replaces replaces = Replaces::own_pictures;
+  std::function<void(long done, long total)> progress{};  ///< frames that are drawn
 };
 
-/// Checks, before the work, that a video can be put at its place.
+/// Checks, before the work, that a video can be made and put at its place.
 /// @throws ModelError  for another ending
-/// @throws FileError   as FileReplacement
+/// @throws FileError   as FileReplacement; if a program that makes it is missing, naming its
+/// package
 void require_video_place(const VideoOptions& options);
 
 /// Draws a video, on a display of its own where there is none; its files are replaced one by one,

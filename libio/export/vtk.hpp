@@ -42,6 +42,18 @@ struct VtkStator {
   AnyGeometry geometry{};      ///< what the rotor meets
 };
 
+/// A bearing, or the spring below what carries bearings: a pyramid below the rotor, whose tip moves
+/// with one end and whose foot is on the other; a symbol, not to scale.
+struct VtkSupport {
+  std::string name;
+  int from = 0;        ///< the point above, from 0
+  int to = -1;         ///< what carries it, from 0; -1: the ground
+  double z = 0.0;      ///< along the shaft [m]
+  double tip = 0.0;    ///< below the axis: the radius of the shaft, or the height of a body [m]
+  double foot = 0.0;   ///< likewise of the foot [m], > tip
+  double width = 0.0;  ///< of the foot [m]
+};
+
 /// A place where forces may act, drawn as an arrow's shaft.
 struct VtkContact {
   std::string name;
@@ -55,11 +67,12 @@ struct VtkScene {
   std::vector<VtkDisk> disks;
   std::vector<VtkStator> stators;
   std::vector<VtkContact> contacts;
+  std::vector<VtkSupport> supports{};
 };
 
 /// Says which disks of a scene are symbols; empty where there are none.
 ///
-///   "Thin and broken: symbols, as the model does not give the size of fan, the width of rim"
+///   "Thin, broken and not to scale, as the model does not give the size of fan, the width of rim"
 std::string symbols_told(const VtkScene& scene);
 
 /// The force at one contact.
@@ -97,8 +110,9 @@ struct VtkOptions {
 /// Point data: "displacement [m]" and "rotation [rad]", both true; "undeformed position [m]";
 /// "contact force [N]", at both ends of the lines. Cell data: "part" (0 shaft, 1 disk, 2 stator,
 /// 3 contact force, 4 a disk whose size is not given: a symbol of which every other sector is
-/// there), "member" (its number from 1 among its kind), "in touch" (0, 1). Field data: "time [s]",
-/// "deflection scale", "force scale [m/N]", "disk names", "stator names", "contact names".
+/// there, 5 bearing or spring, 6 the plate of the ground or body that it stands on), "member" (its
+/// number from 1 among its kind), "in touch" (0, 1). Field data: "time [s]", "deflection scale",
+/// "force scale [m/N]", "disk names", "stator names", "contact names", "support names".
 ///
 /// The collection is removed first and written last: where there is one, it is complete.
 ///

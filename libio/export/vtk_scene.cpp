@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "libio/drawing/disk_shape.hpp"
 
@@ -12,22 +13,20 @@ namespace {
 
 /// Position along the shaft of a point: of a node its own, of a body that of what joins it.
 double position(const Model& model, const Assembler& assembler, const Point& point) {
-  if (point.kind == Point::Kind::node)
-    return assembler.mesh().z[static_cast<std::size_t>(point.index)];
-  const auto partner = [&](const Station& a, const Station& b) -> double {
+  const Mesh& mesh = assembler.mesh();
+  if (const auto z = mesh.position_of(point)) return *z;
+  const auto partner = [&](const Station& a, const Station& b) -> std::optional<double> {
     const Point pa = assembler.point(a), pb = assembler.point(b);
-    if (pa == point && pb.kind == Point::Kind::node)
-      return assembler.mesh().z[static_cast<std::size_t>(pb.index)];
-    if (pb == point && pa.kind == Point::Kind::node)
-      return assembler.mesh().z[static_cast<std::size_t>(pa.index)];
-    return -1.0;
+    if (pa == point) return mesh.position_of(pb);
+    if (pb == point) return mesh.position_of(pa);
+    return std::nullopt;
   };
   for (const Contact& c : model.contacts) {
-    if (const double z = partner(c.at, c.against); z >= 0.0) return z;
+    if (const auto z = partner(c.at, c.against)) return *z;
   }
   for (const auto& [kind, list] : model.structure.connections()) {
     for (const Connection& c : list) {
-      if (const double z = partner(c.from, c.to); z >= 0.0) return z;
+      if (const auto z = partner(c.from, c.to)) return *z;
     }
   }
   return 0.0;
@@ -42,8 +41,7 @@ double contact_radius(const Model& model, const Assembler& assembler, const Cont
   if (c.friction.radius > 0.0) return c.friction.radius;
   const Point p = assembler.point(c.at);
   if (p.kind == Point::Kind::node) {
-    const Mesh& mesh = assembler.mesh();
-    return 0.5 * shaft_diameter(model.structure, mesh, mesh.z[static_cast<std::size_t>(p.index)]);
+    return 0.5 * diameter_at(model.structure, assembler.mesh(), p.index);
   }
   return 5.0 * c.clearance;
 }
@@ -71,6 +69,78 @@ void add_bodies(const Model& model, const Assembler& assembler, VtkScene& scene)
   }
 }
 
+/// Bearings and films as pyramids below the rotor; what carries them, and stands on the ground,
+/// likewise one floor below.
+class Supports {
+ public:
+  Supports(const Model& model, const Assembler& assembler, VtkScene& scene)
+      : model_(model), assembler_(assembler), scene_(scene) {
+    constexpr double share = 0.06;  // of the rotor's length, or of its largest diameter
+    double length = model.structure.length();
+    for (const VtkDisk& d : scene.disks) length = std::max(length, 2.0 * d.outer_radius);
+    height_ = share * (length > 0.0 ? length : 1.0);
+  }
+
+  void add() {
+    for (const Connection& b : model_.structure.bearings) add(b.name, b.from, b.to);
+    for (const OilFilm& f : model_.films) add(f.name, f.at, f.against);
+    for (const Connection& l : model_.structure.links) {  // foundations; others have no place below
+      const bool is_turned = assembler_.point(l.from).kind == Point::Kind::ground;
+      const Station &above = is_turned ? l.to : l.from, &under = is_turned ? l.from : l.to;
+      if (assembler_.point(under).kind == Point::Kind::ground) add(l.name, above, under);
+    }
+  }
+
+ private:
+  void add(const std::string& name, const Station& a, const Station& b) {
+    const Point from = assembler_.point(a), to = assembler_.point(b);
+    if (from.kind == Point::Kind::ground) return;
+    VtkSupport s{.name = name, .from = index_of(from, assembler_), .width = height_};
+    s.z = position(model_, assembler_, from);
+    s.tip = below(from);
+    s.foot = s.tip + height_;
+    if (to.kind != Point::Kind::ground) {
+      s.to = index_of(to, assembler_);
+      s.foot = std::max(s.foot, below(to));
+    }
+    scene_.supports.push_back(std::move(s));
+  }
+
+  /// How far below the axis a point's part ends [m].
+  double below(const Point& point) const {
+    double lowest = 0.0;
+    const int index = index_of(point, assembler_);
+    if (point.kind == Point::Kind::node) {
+      return 0.5 * diameter_at(model_.structure, assembler_.mesh(), index);
+    }
+    for (const VtkDisk& d : scene_.disks) {
+      if (d.point == index) lowest = std::max(lowest, d.outer_radius);
+    }
+    for (const VtkStator& s : scene_.stators) {
+      if (s.point == index) lowest = std::max(lowest, s.rotor_radius + s.clearance);
+    }
+    for (const auto& [kind, list] : model_.structure.connections()) {
+      for (const Connection& c : list) {
+        const Point from = assembler_.point(c.from);
+        if (assembler_.point(c.to) == point && from.kind == Point::Kind::node) {
+          lowest = std::max(lowest, below(from) + height_);
+        }
+      }
+    }
+    for (const OilFilm& f : model_.films) {
+      if (assembler_.point(f.against) == point) {
+        lowest = std::max(lowest, below(assembler_.point(f.at)) + height_);
+      }
+    }
+    return lowest;
+  }
+
+  const Model& model_;
+  const Assembler& assembler_;
+  VtkScene& scene_;
+  double height_ = 0.0;
+};
+
 }  // namespace
 
 VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
@@ -82,7 +152,7 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
     scene.z.push_back(position(model, assembler, {Point::Kind::body, static_cast<int>(i)}));
   }
   for (const MeshElement& e : mesh.elements) {
-    const Segment& segment = s.shaft[static_cast<std::size_t>(e.segment)];
+    const Segment& segment = s.segments_of(e.shaft)[static_cast<std::size_t>(e.segment)];
     scene.shaft.push_back(
         {e.left, e.right, 0.5 * segment.at(e.from).outer, 0.5 * segment.at(e.to).outer});
   }
@@ -107,6 +177,7 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
          0.0, geometry_of(c)});
     scene.contacts.push_back({c.name, index_of(at, assembler)});
   }
+  Supports(model, assembler, scene).add();
   return scene;
 }
 

@@ -17,7 +17,8 @@ namespace {
 
 using namespace figures;
 
-constexpr Eigen::Index most_columns = 600;  ///< of cells: the largest of several lines is one
+constexpr Eigen::Index most_columns =
+    300;  ///< of cells, each wider than a pixel: the largest of several lines is one
 
 /// Spectra of all reduced coordinates; those of any degree of freedom follow by summation.
 struct CoordinateSpectra {
@@ -38,6 +39,12 @@ struct CoordinateSpectra {
     }
   }
 };
+
+/// A name that fits beside a panel.
+std::string short_name(const std::string& name) {
+  constexpr std::size_t longest = 14;
+  return name.size() <= longest ? name : name.substr(0, longest - 1) + "…";
+}
 
 /// Radii of circles [m or rad] of all points (rows), x + i y or the slopes theta_y - i theta_x.
 Mat radii(const CoordinateSpectra& spectra, const MotionRecord& record, const DofMap& dofs,
@@ -74,7 +81,7 @@ Panel spectra_panel(const ResultView& result, const Mat& all, const Vec& frequen
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     c.y.push_back(static_cast<double>(i + 1));
-    c.y_names.push_back(points[i].label());
+    c.y_names.push_back(short_name(points[i].label()));
     for (Eigen::Index k = from; k + group <= from + count; k += group) {
       const double top = all.row(static_cast<Eigen::Index>(i)).segment(k, group).maxCoeff();
       c.values.push_back(top > 0.0 ? std::log10(unit.factor * top) : std::nan(""));

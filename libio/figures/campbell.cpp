@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "libbase/numerics/interpolation.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -20,12 +22,12 @@ using namespace figures;
 struct Branches {
   explicit Branches(const ResultView& result)
       : diagram(result_of<Campbell>(result)),
-        speed(scaled(diagram.speeds, 1.0 / rpm)),
+        speed(scaled(diagram.speeds, 1.0 / speed_unit().size)),
         unit(result.frequency),
         frequency(matrix(&CampbellBranch::frequency) * unit.factor),
         decrement(matrix(&CampbellBranch::log_decrement)) {}
   const Campbell& diagram;
-  std::vector<double> speed;  ///< [rpm]
+  std::vector<double> speed;  ///< [speed_unit()]
   DisplayUnit unit;           ///< of frequencies
   Mat frequency, decrement;   ///< branches x speeds [unit], [-]
 
@@ -58,15 +60,16 @@ Curve curve_of(const Branches& b, Eigen::Index i, std::vector<double> y) {
   c.marker_every = every;
   for (std::size_t j = 0; j < c.x.size(); ++j) {
     const auto k = static_cast<Eigen::Index>(j);
-    c.hover.push_back(fmt::format("branch {}: {:.5g} {} ({:.5g} rpm), log decrement {:.4g}",
-                                  b.name(i), b.frequency(i, k), b.unit.name,
-                                  b.frequency(i, k) / (rpm * b.unit.factor), b.decrement(i, k)));
+    c.hover.push_back(fmt::format("branch {}: {:.5g} {} ({}), log decrement {:.4g}", b.name(i),
+                                  b.frequency(i, k), b.unit.name,
+                                  shown_value(b.frequency(i, k) / b.unit.factor, "rpm", ".5g"),
+                                  b.decrement(i, k)));
   }
   return c;
 }
 
 void mark_operation(const ResultView& result, Panel& panel) {
-  const double speed = speed_of(result) / rpm;
+  const double speed = speed_of(result) / speed_unit().size;
   if (!std::isfinite(speed) || speed < panel.x.first || speed > panel.x.last) return;
   panel.rules.push_back(
       {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
@@ -102,27 +105,33 @@ void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
   found.has_marker = true;
   found.marker = Marker::diamond;
   found.size = 9.0;
-  f.table.header = {"resonance [rpm]",   "ratio",       "modes", "from the rotor [rpm]",
-                    "bouncing at [rpm]", "period [rev]"};
+  f.table.header = {shown_heading("resonance", "rpm"),
+                    "ratio",
+                    "modes",
+                    shown_heading("from the rotor", "rpm"),
+                    shown_heading("bouncing at", "rpm"),
+                    "period [rev]"};
   std::size_t left_out = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const ResonancePlace& at = places[i];
-    const double speed = at.speed / rpm, seen = at.frequency / rpm;
+    const double speed = at.speed / speed_unit().size, seen = at.frequency / speed_unit().size;
     const Eigen::Index branches[] = {at.fast, at.slow};
     const std::string ratio = fmt::format("{}:{}", at.p, at.q);
     const bool is_found = stable[i] >= 0.0;
-    const std::string motion = is_found ? fmt::format("{} at {:.1f} rpm, {:.4f} revolutions",
-                                                      stable[i] > 0.0 ? "stable" : "unstable",
-                                                      bouncing[i] / rpm, revolutions[i])
-                                        : "none found";
+    const std::string motion =
+        is_found
+            ? fmt::format("{} at {}, {:.4f} revolutions", stable[i] > 0.0 ? "stable" : "unstable",
+                          shown_value(bouncing[i], "rpm", ".1f"), revolutions[i])
+            : "none found";
     Curve& c = is_found ? found : possible;
     double top = not_set;
     for (const Eigen::Index k : branches) {
       c.x.push_back(speed);
       c.y.push_back(between(b.speed, b.frequency, k, speed));
       top = std::fmax(top, c.y.back());
-      c.hover.push_back(fmt::format("{} of {} and {} at {:.1f} rpm; bouncing: {}", ratio,
-                                    b.name(branches[0]), b.name(branches[1]), speed, motion));
+      c.hover.push_back(fmt::format("{} of {} and {} at {}; bouncing: {}", ratio,
+                                    b.name(branches[0]), b.name(branches[1]),
+                                    shown_value(at.speed, "rpm", ".1f"), motion));
     }
     c.x.push_back(not_set);  // the next one is a line of its own
     c.y.push_back(not_set);
@@ -136,8 +145,8 @@ void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
     if (top <= panel.y.last) panel.labels.push_back(label);
     f.table.rows.push_back({fmt::format("{:.1f}", speed), ratio,
                             fmt::format("{}, {}", b.name(branches[0]), b.name(branches[1])),
-                            fmt::format("{:.0f}, {:.0f}", at.p * seen, at.q * seen),
-                            is_found ? fmt::format("{:.1f}, {}", bouncing[i] / rpm,
+                            speed_label(at.p * seen) + ", " + speed_label(at.q * seen),
+                            is_found ? fmt::format("{:.1f}, {}", bouncing[i] / speed_unit().size,
                                                    stable[i] > 0.0 ? "stable" : "unstable")
                                      : "none found",
                             is_found ? fmt::format("{:.4f}", revolutions[i]) : ""});
@@ -156,12 +165,12 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   Figure f{.height = 520.0};
   f.subtitle = "Campbell diagram";
   Panel p;
-  p.x = {.title = "speed [rpm]", .first = b.speed.front(), .last = b.speed.back()};
+  p.x = {.title = shown_heading("speed", "rpm"), .first = b.speed.front(), .last = b.speed.back()};
   p.y.title = with_unit("natural frequency", b.unit);
   p.y.first = 0.0;
   // branches far above the second harmonic would press the others together
-  const double per_rpm = rpm * b.unit.factor;
-  const double twice = 2.4 * b.speed.back() * per_rpm;
+  const double per_speed = speed_unit().size * b.unit.factor;
+  const double twice = 2.4 * b.speed.back() * per_speed;
   double low = 0.0, all = 0.0;
   for (Eigen::Index i = 0; i < b.frequency.rows(); ++i) {
     const double top = largest_of(row(b.frequency, i));
@@ -173,27 +182,36 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   for (Eigen::Index i = 0; i < b.frequency.rows(); ++i) {
     p.curves.push_back(curve_of(b, i, row(b.frequency, i)));
   }
-  p.rules.push_back({Rule::Kind::slope, per_rpm, "1X", Paint::ink, Dash::dash_dot});
-  p.rules.push_back({Rule::Kind::slope, 2.0 * per_rpm, "2X", Paint::gray, Dash::dotted});
-  p.rules.push_back({Rule::Kind::slope, 0.5 * per_rpm, "½X", Paint::gray, Dash::dotted});
+  p.rules.push_back({Rule::Kind::slope, per_speed, "1X", Paint::ink, Dash::dash_dot});
+  p.rules.push_back({Rule::Kind::slope, 2.0 * per_speed, "2X", Paint::gray, Dash::dotted});
+  p.rules.push_back({Rule::Kind::slope, 0.5 * per_speed, "½X", Paint::gray, Dash::dotted});
+  if (result.model) {
+    for (const Rotor& rotor : result.model->structure.rotors) {
+      const double ratio = std::abs(rotor.ratio);
+      if (ratio == 0.0 || ratio == 0.5 || ratio == 1.0 || ratio == 2.0) continue;
+      p.rules.push_back({Rule::Kind::slope, ratio * per_speed,
+                         fmt::format("{:.4g}X", ratio), Paint::ink, Dash::dash_dot});
+    }
+  }
   mark_operation(result, p);
   if (!b.diagram.crossings.empty()) {
     Curve c{.name = "critical speed", .paint = Paint::ink, .has_line = false};
     c.has_marker = true;
     c.marker = Marker::cross;
     c.size = 9.0;
-    f.table.header = {"critical speed [rpm]", "[" + b.unit.name + "]", "branch", "whirl",
-                      "log decrement"};
+    f.table.header = {shown_heading("critical speed", "rpm"), "[" + b.unit.name + "]", "branch",
+                      "whirl", "log decrement"};
     for (const Crossing& crossing : b.diagram.crossings) {
       const auto k = static_cast<Eigen::Index>(crossing.branch);
-      const double speed = crossing.speed / rpm;
+      const double speed = crossing.speed / speed_unit().size;
       c.x.push_back(speed);
-      c.y.push_back(speed * per_rpm);
-      c.hover.push_back(fmt::format("critical speed {:.1f} rpm of branch {}", speed, b.name(k)));
+      c.y.push_back(speed * per_speed);
+      c.hover.push_back(fmt::format("critical speed {} of branch {}",
+                                    shown_value(crossing.speed, "rpm", ".1f"), b.name(k)));
       const double decrement = between(b.speed, b.decrement, k, speed);
-      f.table.rows.push_back({fmt::format("{:.1f}", speed), fmt::format("{:.2f}", speed * per_rpm),
-                              b.name(k), std::string(name_of(b.branch(k).whirl)),
-                              fmt::format("{:.4f}", decrement)});
+      f.table.rows.push_back(
+          {fmt::format("{:.1f}", speed), fmt::format("{:.2f}", speed * per_speed), b.name(k),
+           std::string(name_of(b.branch(k).whirl)), fmt::format("{:.4f}", decrement)});
     }
     p.curves.push_back(c);
   }
@@ -213,16 +231,18 @@ std::vector<Figure> log_decrement_figures(const ResultView& result) {
   Figure f{.height = 420.0};
   f.subtitle = "Logarithmic decrement, stable above zero";
   Panel p;
-  p.x = {.title = "speed [rpm]", .first = b.speed.front(), .last = b.speed.back()};
+  p.x = {.title = shown_heading("speed", "rpm"), .first = b.speed.front(), .last = b.speed.back()};
   p.y.title = "log decrement";
-  constexpr double most = 3.0;  // heavily damped branches are left to the eye that zooms out
-  if (largest_of({b.decrement.data(), b.decrement.data() + b.decrement.size()}) > most) {
-    p.y.last = most;
-  }
   for (Eigen::Index i = 0; i < b.decrement.rows(); ++i) {
     p.curves.push_back(curve_of(b, i, row(b.decrement, i)));
   }
+  if (std::string note = show_decrements(p); !note.empty()) f.notes.push_back(std::move(note));
   p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::ink, Dash::solid});
+  if (result.file.has(dataset_of<LateralReport>(&LateralReport::speeds))) {
+    p.rules.push_back({Rule::Kind::horizontal, least_log_decrement,
+                       fmt::format("{:g}, API 617", least_log_decrement), Paint::alarm,
+                       Dash::dashed});
+  }
   mark_operation(result, p);
   // where a branch loses its damping
   for (Eigen::Index i = 0; i < b.decrement.rows(); ++i) {
@@ -233,11 +253,12 @@ std::vector<Figure> log_decrement_figures(const ResultView& result) {
       double speed = b.speed[j - 1] + (b.speed[j] - b.speed[j - 1]) * before / (before - now);
       for (const Threshold& t : b.diagram.thresholds) {  // of older files there are none
         const bool is_here = t.speed >= b.diagram.speeds[j - 1] && t.speed <= b.diagram.speeds[j];
-        if (t.branch == i && is_here) speed = t.speed / rpm;
+        if (t.branch == i && is_here) speed = t.speed / speed_unit().size;
       }
-      p.rules.push_back({Rule::Kind::vertical, speed,
-                         fmt::format("{} unstable from {:.0f} rpm", b.name(i), speed), Paint::alarm,
-                         Dash::dashed});
+      p.rules.push_back(
+          {Rule::Kind::vertical, speed,
+           fmt::format("{} unstable from {:.4g} {}", b.name(i), speed, speed_unit().name),
+           Paint::alarm, Dash::dashed});
     }
   }
   p.cursor = "speed";

@@ -8,7 +8,10 @@
 #include <map>
 
 #include "libbase/error.hpp"
+#include "libdata/measured/order_tracking.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/figures/probes.hpp"
+#include "libio/figures/result_of.hpp"
 #include "libio/results/call.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/option_values.hpp"
@@ -31,7 +34,8 @@ const FigureKind& kind_of(const std::string& name, const ResultView& result) {
     throw ModelError(
         {name}, "",
         near ? fmt::format("unknown kind of figure, did you mean \"{}\"?", *near)
-             : fmt::format("unknown kind of figure, there are {}", fmt::join(known, ", ")));
+             : fmt::format("unknown kind of figure; this result can be drawn as {}",
+                           here.empty() ? "nothing" : fmt::format("{}", fmt::join(here, ", "))));
   }
   const FigureKind& kind = figure_kinds()[static_cast<std::size_t>(found - known.begin())];
   if (is_in(kind, result)) return kind;
@@ -50,6 +54,22 @@ void require_window(const FigureKind& kind) {
     if (other.takes_window) names.push_back(other.name);
   }
   throw wrong_window(fmt::format("are of motions in time: {}", fmt::join(names, ", ")));
+}
+
+/// @throws ModelError  for an option of motions that a kind does not take
+void require_view(const FigureKind& kind, const MotionView& view) {
+  for (const auto& given : view.given) {
+    const auto& [option, text] = given;
+    const auto takes = [&given](const FigureKind& k) {
+      return std::find(k.takes.begin(), k.takes.end(), given.first) != k.takes.end();
+    };
+    if (takes(kind)) continue;
+    std::vector<std::string_view> names;
+    for (const FigureKind& other : figure_kinds()) {
+      if (takes(other)) names.push_back(other.name);
+    }
+    throw wrong_option(option, text, fmt::format("is for figures {}", fmt::join(names, ", ")));
+  }
 }
 
 /// The figure of a probe: the first that shows what it reads, else that of the station where it is.
@@ -72,6 +92,9 @@ Figure& variant_of(std::vector<Figure>& figures, const std::string& name,
     if (f.variant == name) return f;
     names.push_back(f.variant);
   }
+  for (Figure& f : figures) {
+    if (std::find(f.probes.begin(), f.probes.end(), name) != f.probes.end()) return f;
+  }
   if (const Probe* probe = figures::probe_of(result, name)) {
     if (Figure* f = figure_with(figures, *probe, result)) return *f;
   }
@@ -92,8 +115,12 @@ Figure& variant_of(std::vector<Figure>& figures, const std::string& name,
 }  // namespace
 
 std::string probe_named(const ResultView& result, const std::string& name) {
-  const Probe* probe = figures::probe_of(result, name);
-  return probe ? probe->name : "";
+  if (figures::probe_of(result, name)) return name;
+  if (name.empty() || !result.file.has(dataset_of<OrderTracking>(&OrderCurve::name))) return "";
+  const auto& curves = figures::result_of<OrderTracking>(result).curves;
+  const bool is_measured = std::any_of(curves.begin(), curves.end(),
+                                       [&](const OrderCurve& c) { return c.name == name; });
+  return is_measured ? name : "";
 }
 
 DrawableKinds drawable_kinds(const ResultView& result) {
@@ -127,6 +154,7 @@ std::string text_of(const DrawableKinds& all, const std::string& file) {
 Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {
   const FigureKind& kind = kind_of(choice.kind, result);
   if (result.window.is_given()) require_window(kind);
+  require_view(kind, result.view);
   std::vector<Figure> figures = figures_of(kind, result);
   if (figures.empty()) {
     throw ModelError({choice.kind}, "", "there is nothing to draw in this result");
@@ -139,15 +167,37 @@ Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {
   return std::move(variant_of(figures, choice.variant, result));
 }
 
+bool is_of_models(const std::string& kind) {
+  return std::any_of(figure_kinds().begin(), figure_kinds().end(),
+                     [&](const FigureKind& k) { return k.name == kind && k.of_model; });
+}
+
+Figure figure_of_model(const Model& model, const std::string& kind, const std::string& file) {
+  for (const FigureKind& k : figure_kinds()) {
+    if (k.name != kind || !k.of_model) continue;
+    std::vector<Figure> figures = k.of_model(model, Assembler(linear_structure(model)));
+    if (figures.empty()) break;
+    Figure figure = std::move(figures.front());
+    figure.kind = k.name;
+    figure.heading = k.title;
+    figure.subject = k.subject;
+    if (figure.title.empty()) figure.title = model.title;
+    if (figure.title.empty()) figure.title = std::filesystem::path(file).filename().string();
+    return figure;
+  }
+  throw ModelError({kind}, "", "the model has neither a shaft nor contacts, which could be drawn");
+}
+
 std::string verb_for(std::string_view kind) {
   // results have a group by the name of the verb, with these exceptions
   static const std::map<std::string_view, std::string_view> others{
       {"trajectory", "simulate"}, {"spectra", "simulate"}, {"mac", "identify"},
       {"measured", "identify"},   {"orders", "identify"},  {"record", "identify"},
-      {"branch", "continue"},     {"border", "continue"}};
+      {"trend", "identify"},      {"branch", "continue"},  {"border", "continue"}};
   for (const FigureKind& k : figure_kinds()) {
-    if (k.name != kind || k.needs.empty()) continue;
-    const std::string_view path = k.needs.front();
+    if (k.name != kind || k.first_need().empty()) continue;
+    const std::string first = k.first_need();
+    const std::string_view path = first;
     const std::string_view group = path.substr(1, path.find('/', 1) - 1);
     const auto other = others.find(group);
     return std::string(other != others.end() ? other->second : group);

@@ -51,6 +51,13 @@ std::string probe_named(const ResultView& result, const std::string& name);
 /// @throws ModelError  naming what there is, if the result cannot be drawn so
 Figure chosen_figure(const ResultView& result, const FigureChoice& choice);
 
+/// Whether there is a kind of this name that models are drawn as, without a result.
+bool is_of_models(const std::string& kind);
+/// The figure of a model, of a kind for which is_of_models().
+/// @param file         its title where the model has none
+/// @throws ModelError  if the model has nothing that is drawn
+Figure figure_of_model(const Model& model, const std::string& kind, const std::string& file);
+
 /// The verb whose results can be drawn as a kind; of a name that is no kind, "simulate".
 std::string verb_for(std::string_view kind);
 

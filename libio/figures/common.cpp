@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
+#include "libdata/measured/order_tracking.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/results/call.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io::figures {
 
@@ -29,6 +32,10 @@ double largest_displacement(const StationMotion& motion) {
   return std::max(motion.x.cwiseAbs().maxCoeff(), motion.y.cwiseAbs().maxCoeff());
 }
 
+double per_mm() {
+  return 1.0 / shown_unit("mm").size;
+}
+
 double speed_of(const ResultView& result) {
   if (result.file.has_attribute("/", "speed")) return result.file.number_attribute("/", "speed");
   if (result.model && result.model->has_speed) return result.model->speed;
@@ -37,7 +44,24 @@ double speed_of(const ResultView& result) {
 
 std::string speed_text(const ResultView& result) {
   const double speed = speed_of(result);
-  return std::isfinite(speed) && speed > 0.0 ? fmt::format("{:.6g} rpm", speed / rpm) : "";
+  return std::isfinite(speed) && speed > 0.0 ? shown_value(speed, "rpm", ".6g") : "";
+}
+
+std::optional<SpeedRange> run_up_of(const ResultView& result) {
+  if (!result.file.has(dataset_of<OrderTracking>(&OrderTracking::speed))) return std::nullopt;
+  const Vec& speeds = result_of<OrderTracking>(result).speed;
+  if (speeds.size() == 0) return std::nullopt;
+  const SpeedRange range{speeds.minCoeff(), speeds.maxCoeff()};
+  constexpr double steady = 0.1;  // of the fastest
+  if (!(range.fastest - range.slowest > steady * range.fastest)) return std::nullopt;
+  return range;
+}
+
+std::string at_speeds(const ResultView& result) {
+  const auto range = run_up_of(result);
+  if (!range) return at_speed(result);
+  return fmt::format(" from {} to {}", shown_number(range->slowest, "rpm", ".0f"),
+                     shown_value(range->fastest, "rpm", ".0f"));
 }
 
 std::string at_speed(const ResultView& result) {
@@ -58,18 +82,61 @@ WhirlStyle whirl_style(Whirl whirl) {
   }
 }
 
+std::string show_decrements(Panel& panel) {
+  constexpr double most = 3.0;
+  double low = 0.0, high = 0.0;
+  std::string hidden;
+  for (Curve& c : panel.curves) {
+    std::vector<double> told;
+    std::ranges::copy_if(c.y, std::back_inserter(told), [](double y) { return std::isfinite(y); });
+    if (told.empty()) continue;
+    const auto [least, largest] = std::ranges::minmax(told);
+    if (least > most) {
+      c.is_key = false;
+      hidden += (hidden.empty() ? "" : ", ") + c.end_name;
+      continue;
+    }
+    low = std::min(low, least);
+    high = std::max(high, std::min(largest, most));
+  }
+  if (low == high) return "";  // nothing is near the limit: all is shown
+  const Axis range = axis_around({low, high}, Scale::linear);
+  panel.y.first = range.first;
+  panel.y.last = range.last;
+  return hidden.empty() ? ""
+                        : fmt::format("Log decrements above {:g} are not shown: {}.", most, hidden);
+}
+
+std::string plain_number(double value) {
+  const double size = std::abs(value);
+  return size >= 100.0 && size < 1e7 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
+std::string speed_label(double shown) {
+  return shown_number(shown * speed_unit().size, "rpm", ".0f");
+}
+
 std::string with_unit(const std::string& what, const DisplayUnit& unit) {
   return unit.name.empty() ? what : fmt::format("{} [{}]", what, unit.name);
 }
 
 namespace {
 
+/// Of several values that go together the first, where all of them would be longer than an axis.
+std::string short_path(const std::string& path) {
+  constexpr std::size_t longest = 60;
+  const auto more = std::ranges::count(path, ',');
+  if (path.size() <= longest || more == 0) return path;
+  return fmt::format("{} and {} more", path.substr(0, path.find(',')), more);
+}
+
 ShownAxis shown(StoredParameter parameter) {
   ShownAxis axis{.path = std::move(parameter.path),
                  .values = std::move(parameter.values),
                  .si_unit = std::move(parameter.unit)};
   const DisplayUnit unit = unit_for(largest_of(axis.values), axis.si_unit);
-  axis.title = with_unit(axis.path, unit);
+  axis.unit = unit.name;
+  axis.title = with_unit(short_path(axis.path), unit);
   axis.factor = 1.0 / unit.factor;
   axis.values = scaled(std::move(axis.values), unit.factor);
   return axis;
@@ -267,6 +334,26 @@ std::vector<std::string> Motion::notes(double revolutions) const {
   }
   if (shown(revolutions).first == 0) return {};
   return {fmt::format("The last {:g} revolutions.", revolutions)};
+}
+
+void Motion::show_over_time(Panel& p, double revolutions) const {
+  constexpr double before = 4.0, after = 12.0;  // revolutions
+  const MotionSamples seen = shown(revolutions);
+  p.x.first = time(seen.first);
+  p.x.last = time(seen.last);
+  p.x.title = "time [s]";
+  p.cursor = "time";
+  for (const double t : record.begins) {
+    p.rules.push_back({Rule::Kind::vertical, t, "", Paint::alarm, Dash::dashed});
+  }
+  if (record.begins.empty() || window.is_given()) return;
+  p.x.first = std::max(time(0), record.begins.front() - before * period);
+  p.x.last = std::min(time(size() - 1), record.begins.front() + after * period);
+}
+
+std::vector<std::string> Motion::time_notes(double revolutions) const {
+  if (window.is_given() || record.begins.empty()) return notes(revolutions);
+  return {"About the instant at which a load begins, the broken line."};
 }
 
 SealShape seal_shape(double at, double half, double tip, double top) {

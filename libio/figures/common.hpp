@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
@@ -13,7 +14,8 @@ namespace whirl::inline io {
 
 namespace figures {
 
-constexpr double mm = 1e3;  ///< [1/m]
+/// Numbers of lengths along the shaft in one meter: in the shown unit of mm.
+double per_mm();
 
 std::vector<double> row(const Mat& m, Eigen::Index i);
 std::vector<double> numbers(const Vec& v);
@@ -24,10 +26,22 @@ double largest_displacement(const StationMotion& motion);
 
 /// "4430 rpm"; empty for a result without a speed.
 std::string speed_text(const ResultView& result);
-/// " at 4430 rpm", to go on in a sentence; empty likewise.
+/// Speeds of a measured run-up or coast-down [rad/s].
+struct SpeedRange {
+  double slowest = 0.0, fastest = 0.0;
+};
+/// Nothing: the result is no record with orders, or its speed is steady.
+std::optional<SpeedRange> run_up_of(const ResultView& result);
+/// " at 4430 rpm", to go on in a sentence; empty for a result without a speed.
 std::string at_speed(const ResultView& result);
+/// The same of what a record shows: of a run-up " from 300 to 3000 rpm".
+std::string at_speeds(const ResultView& result);
 /// The operating speed [rad/s], or NaN.
 double speed_of(const ResultView& result);
+/// Three digits without an exponent: 0.0123, 12.3, 1230.
+std::string plain_number(double value);
+/// A speed in speed_unit() as tables and labels tell it: whole rpm, other units as fine.
+std::string speed_label(double shown);
 
 struct WhirlStyle {
   Paint paint;
@@ -44,6 +58,7 @@ struct ShownAxis {
   std::vector<double> values;
   double factor = 1.0;  ///< of shown numbers in SI
   std::string si_unit{};
+  std::string unit{};  ///< of the shown numbers
 };
 ShownAxis shown_axis(const ResultView& result, const std::string& path);
 /// The axes of a study, with the values that are drawn.
@@ -78,6 +93,17 @@ DisplayUnit unit_of(const Probes& probes, double largest) {
 }
 std::string probe_name(const ProbeLabel& probe);
 
+/// Shows logarithmic decrements as far as they tell stability: branches that are heavily damped
+/// everywhere are for who zooms out.
+/// @return  a note that names these; empty: there are none
+std::string show_decrements(Panel& panel);
+
+/// The stroke of one of several curves, which tells them apart where colors do not.
+constexpr Dash series_dash(std::size_t i) {
+  constexpr Dash dashes[] = {Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
+  return dashes[(i + i / 20) % 4];
+}
+
 /// The title of an axis with its unit: "x [mm]".
 std::string with_unit(const std::string& what, const DisplayUnit& unit);
 
@@ -111,6 +137,8 @@ Curve dots_of_revolutions();
 ///              need
 void keep_room(FigureAxis& axis, const std::vector<double>& values, double room);
 
+constexpr double seen_revolutions = 8.0;  ///< of a time history, at first
+
 /// Names of the stations that the motion of a result was recorded at; none without a motion.
 std::vector<std::string> recorded_stations(const ResultView& result);
 
@@ -130,6 +158,11 @@ struct Motion : RecordedMotion {
   MotionSamples drawn(double revolutions) const;
   /// Says what is seen at first; nothing where all is seen.
   std::vector<std::string> notes(double revolutions) const;
+  /// Shows a part of the motion over time at first: that of a window that was asked for, else where
+  /// the first load begins, else the last `revolutions`; with the instants at which loads begin.
+  void show_over_time(Panel& p, double revolutions) const;
+  /// What is shown so, in words.
+  std::vector<std::string> time_notes(double revolutions) const;
 
   Eigen::Index size() const { return time.size(); }
   double phase(Eigen::Index i) const;  ///< of the rotor at a sample [rad]

@@ -92,7 +92,7 @@ std::vector<Figure> contact_angle_figures(const ResultView& result) {
     add_grid(forces, unit.factor * largest_of(t.force), unit.name);
     Curve dots{.paint = Paint::alarm, .has_line = false};
     dots.has_marker = true;
-    dots.size = 1.8;
+    dots.size = t.angle.size() < 200 ? 5.0 : 1.8;
     dots.along = t.time;
     dots.along_title = "time";
     std::vector<double> shares(sectors, 0.0);

@@ -7,12 +7,18 @@
 #include "libfe/analyses/critical_map.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
 using namespace figures;
+
+/// Numbers on the axis of the stiffness in one of the map.
+double per_stiffness(const CriticalMap& map) {
+  return map.is_common ? 1.0 / shown_unit("N/m").size : 1.0;
+}
 
 /// Branches of the map, named by their sense and their number among those of this sense.
 std::vector<Curve> branch_curves(const CriticalMap& map) {
@@ -24,11 +30,11 @@ std::vector<Curve> branch_curves(const CriticalMap& map) {
     Curve c{.name = style.name, .paint = style.paint};
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       if (!std::isfinite(branch.speed[i])) continue;
-      c.x.push_back(map.x[i]);
-      c.y.push_back(branch.speed[i] / rpm);
+      c.x.push_back(per_stiffness(map) * map.x[i]);
+      c.y.push_back(branch.speed[i] / speed_unit().size);
     }
     // those that leave the picture at its top would have their names there, upon each other
-    if (!c.y.empty() && c.y.back() <= map.top / rpm) c.end_name = name;
+    if (!c.y.empty() && c.y.back() <= map.top / speed_unit().size) c.end_name = name;
     c.width = 1.8;
     c.dash = style.dash;
     c.has_marker = true;
@@ -48,18 +54,19 @@ void draw_bearings(const CriticalMap& map, Panel& p) {
   std::size_t number = 0;
   for (const StiffnessCurve& stiffness : map.curves) {
     Curve c{.name = stiffness.name, .paint = series_paint(number + 1)};
-    constexpr Dash dashes[] = {Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
-    c.dash = dashes[number++ % 4];
+    c.dash = series_dash(number++);
     c.width = 1.4;
-    for (const double k : stiffness.stiffness) c.x.push_back(k > 0.0 ? k : std::nan(""));
-    c.y = scaled(map.curve_speeds, 1.0 / rpm);
+    for (const double k : stiffness.stiffness)
+      c.x.push_back(k > 0.0 ? per_stiffness(map) * k : std::nan(""));
+    c.y = scaled(map.curve_speeds, 1.0 / speed_unit().size);
     p.curves.push_back(std::move(c));
   }
   for (const StiffnessCrossing& at : map.crossings) {
-    crossings.x.push_back(at.stiffness);
-    crossings.y.push_back(at.speed / rpm);
-    crossings.hover.push_back(fmt::format("{}: {} at {:.1f} rpm", map.curves[at.curve].name,
-                                          name_of(map.branches[at.branch].whirl), at.speed / rpm));
+    crossings.x.push_back(per_stiffness(map) * at.stiffness);
+    crossings.y.push_back(at.speed / speed_unit().size);
+    crossings.hover.push_back(fmt::format("{}: {} at {}", map.curves[at.curve].name,
+                                          name_of(map.branches[at.branch].whirl),
+                                          shown_value(at.speed, "rpm", ".1f")));
   }
   p.curves.push_back(std::move(crossings));
 }
@@ -67,8 +74,11 @@ void draw_bearings(const CriticalMap& map, Panel& p) {
 void add_gaps(const CriticalMap& map, Figure& f) {
   constexpr std::size_t most = 3;  // told one by one
   for (std::size_t i = 0; i < std::min(most, map.gaps.size()); ++i) {
-    f.notes.push_back(fmt::format("Left out at {:.4g}{}: {}.", map.gaps[i].x,
-                                  map.is_common ? " N/m" : "", map.gaps[i].why));
+    const double at = map.gaps[i].x;
+    f.notes.push_back(
+        fmt::format("Left out at {}: {}.",
+                    map.is_common ? shown_value(at, "N/m", ".4g") : fmt::format("{:.4g}", at),
+                    map.gaps[i].why));
   }
   if (map.gaps.size() > most) {
     f.notes.push_back(fmt::format("Left out likewise at {} more.", map.gaps.size() - most));
@@ -76,11 +86,12 @@ void add_gaps(const CriticalMap& map, Figure& f) {
 }
 
 FigureTable table_of(const std::vector<Critical>& criticals) {
-  FigureTable table{.header = {"critical speed [rpm]", "whirl", "damped [rpm]"}};
+  FigureTable table{
+      .header = {shown_heading("critical speed", "rpm"), "whirl", shown_heading("damped", "rpm")}};
   for (const Critical& c : criticals) {
     table.rows.push_back(
-        {fmt::format("{:.1f}", c.speed / rpm), std::string(name_of(c.whirl)),
-         std::isfinite(c.damped_speed) ? fmt::format("{:.1f}", c.damped_speed / rpm) : "-"});
+        {shown_number(c.speed, "rpm", ".1f"), std::string(name_of(c.whirl)),
+         std::isfinite(c.damped_speed) ? shown_number(c.damped_speed, "rpm", ".1f") : "-"});
   }
   return table;
 }
@@ -99,24 +110,36 @@ std::vector<Figure> critical_figures(const ResultView& result) {
   f.subtitle =
       fmt::format("Undamped critical speeds of order {:g} over bearing stiffness", found.order);
   Panel p;
-  p.x = {.title =
-             map.is_common ? "stiffness of each bearing [N/m]" : "stiffness of the bearings, times",
+  p.x = {.title = map.is_common ? shown_heading("stiffness of each bearing", "N/m")
+                                : "stiffness of the bearings, times",
          .scale = Scale::logarithmic};
-  p.y = {.title = "critical speed [rpm]", .scale = Scale::logarithmic};
+  p.y = {.title = shown_heading("critical speed", "rpm"), .scale = Scale::logarithmic};
   p.curves = branch_curves(map);
-  double low = map.top / rpm;
+  double low = map.top / speed_unit().size;
   for (const Curve& c : p.curves) {
     for (const double speed : c.y) low = std::min(low, speed);
   }
-  const Axis shown = axis_around({low, map.top / rpm}, Scale::logarithmic);
+  const Axis shown = axis_around({low, map.top / speed_unit().size}, Scale::logarithmic);
+  constexpr double room = 1.3;  // above the highest crossing
+  double highest = map.top;
+  for (const StiffnessCrossing& at : map.crossings) highest = std::max(highest, at.speed);
   p.y.first = shown.first;
-  p.y.last = map.top / rpm;  // branches leave the map here: above it not all are known
+  p.y.last = room * highest / speed_unit().size;
+  f.notes.push_back(fmt::format("Above {} some critical speeds are left out.",
+                                shown_value(map.top, "rpm", ".0f")));
+  f.notes.push_back(
+      "Names count the branches of each sense of whirl: 2F is the second forward one.");
   if (map.is_common) {
     draw_bearings(map, p);
+    if (!map.curves.empty()) {
+      f.notes.push_back(
+          "Curves of bearings are their direct stiffness; critical speeds of the table are those "
+          "with all coefficients.");
+    }
   } else {
     p.rules.push_back({Rule::Kind::vertical, 1.0, "of the model", Paint::gray, Dash::dashed});
   }
-  const double speed = speed_of(result) / rpm;
+  const double speed = speed_of(result) / speed_unit().size;
   if (std::isfinite(speed) && speed > 0.0) {
     p.rules.push_back({Rule::Kind::horizontal, speed, "operating", Paint::gray, Dash::dotted});
   }

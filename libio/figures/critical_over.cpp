@@ -6,6 +6,7 @@
 
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -20,7 +21,7 @@ std::vector<Figure> critical_over_figures(const ResultView& result) {
   f.subtitle = "Critical speeds over " + axis.path;
   Panel p;
   p.x = {.title = axis.title, .first = axis.values.front(), .last = axis.values.back()};
-  p.y = {.title = "critical speed [rpm]", .first = 0.0};
+  p.y = {.title = shown_heading("critical speed", "rpm"), .first = 0.0};
   p.cursor = "parameter";
   for (std::size_t i = 0; i < found.branches.size(); ++i) {
     const CriticalOverBranch& branch = found.branches[i];
@@ -33,11 +34,11 @@ std::vector<Figure> critical_over_figures(const ResultView& result) {
             .end_name = fmt::format("{}{}", i + 1, style.letter),
             .paint = style.paint,
             .x = axis.values};
-    c.y = scaled(numbers(branch.speed), 1.0 / rpm);
+    c.y = scaled(numbers(branch.speed), 1.0 / speed_unit().size);
     c.width = 1.8;
     c.dash = style.dash;
     Curve damped{.name = "damped", .paint = style.paint, .x = axis.values, .has_line = false};
-    damped.y = scaled(numbers(branch.damped_speed), 1.0 / rpm);
+    damped.y = scaled(numbers(branch.damped_speed), 1.0 / speed_unit().size);
     damped.has_marker = true;
     damped.marker = style.marker;
     damped.size = 5.0;
@@ -45,7 +46,7 @@ std::vector<Figure> critical_over_figures(const ResultView& result) {
     p.curves.push_back(std::move(c));
     p.curves.push_back(std::move(damped));
   }
-  const double speed = speed_of(result) / rpm;
+  const double speed = speed_of(result) / speed_unit().size;
   if (std::isfinite(speed) && speed > 0.0) {
     p.rules.push_back({Rule::Kind::horizontal, speed, "operating", Paint::gray, Dash::dotted});
   }

@@ -28,26 +28,33 @@
   polar_kind(),          \
   forced_kind(),         \
   deflection_kind(),     \
+  support_forces_kind(), \
   unbalance_over_kind(), \
   frf_kind(),            \
   lateral_response_kind(), \
   coupling_kind(),       \
+  balancing_kind(),      \
   orbit_kind(),          \
   time_history_kind(),   \
   spectrum_kind(),       \
   waterfall_kind(),      \
+  orbits_kind(),         \
+  centerline_kind(),     \
   measured_orbit_kind(), \
   measured_spectrum_kind(), \
   measured_waterfall_kind(), \
+  measured_cascade_kind(), \
   measured_deflection_kind(), \
   order_bode_kind(),     \
   order_polar_kind(),    \
+  trend_kind(),          \
   poincare_kind(),       \
   phase_plane_kind(),    \
   tilts_kind(),          \
   contact_motion_kind(), \
   contact_forces_kind(), \
   contact_angles_kind(), \
+  support_history_kind(), \
   mac_kind(),            \
   all_spectra_kind(),    \
   stabilization_kind(),  \
@@ -57,6 +64,7 @@
   exponents_over_kind(), \
   spectral_map_kind(),   \
   cascade_kind(),        \
+  multipliers_kind(),    \
   branches_kind(),       \
   borders_kind(),        \
   torus_kind(),          \
@@ -112,14 +120,16 @@ const std::vector<FigureKind>& figure_kinds() {
 
 bool is_in(const FigureKind& kind, const ResultView& result) {
   if (kind.needs_model && !result.assembler) return false;
-  return std::all_of(kind.needs.begin(), kind.needs.end(),
-                     [&](const std::string& dataset) { return result.file.has(dataset); });
+  const auto has = [&](const std::string& dataset) { return result.file.has(dataset); };
+  const bool has_one =
+      kind.needs_one.empty() || std::any_of(kind.needs_one.begin(), kind.needs_one.end(), has);
+  return has_one && std::all_of(kind.needs.begin(), kind.needs.end(), has);
 }
 
 std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result) {
   if (!is_in(kind, result)) return {};
   std::vector<Figure> figures = kind.make(result);
-  const std::string first = kind.needs.empty() ? "/" : kind.needs.front();
+  const std::string first = kind.first_need().empty() ? "/" : kind.first_need();
   const std::string note = figures::coarseness(result.file, first.substr(0, first.find('/', 1)));
   for (Figure& f : figures) {
     if (!note.empty()) f.notes.push_back(note);

@@ -15,6 +15,7 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/assembly/assemble.hpp"
 #include "libio/drawing/figure.hpp"
+#include "libio/figures/motion_view.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
 
@@ -32,8 +33,9 @@ struct ResultView {
   std::optional<Model> model;          ///< none: see problem
   std::optional<Assembler> assembler;  ///< of its linear_structure, as linear results are
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
-  DisplayUnit frequency{"Hz", 1.0 / hertz};  ///< of frequency axes; speeds are in rpm
+  DisplayUnit frequency{"Hz", 1.0 / hertz};  ///< of frequency axes; speeds are in speed_unit()
   MotionWindow window;  ///< of motions that are drawn in time; left open: their end
+  MotionView view;      ///< what figures of motions show; left open: they choose
   std::string probe{};  ///< name of the only probe whose readings are drawn; empty: all
   /// Results that were read of the file, by their types: see result_of.hpp.
   mutable std::unordered_map<std::type_index, std::shared_ptr<const void>> known{};
@@ -48,11 +50,20 @@ struct FigureKind {
   std::string_view title;  ///< "Bode", above its card on a page
   std::string_view summary;
   Subject subject = Subject::numbers;
-  std::vector<std::string> needs{};  ///< datasets, all of which are needed, see dataset_of()
+  std::vector<std::string> needs{};      ///< datasets, all of which are needed, see dataset_of()
+  std::vector<std::string> needs_one{};  ///< datasets, one of which is needed; empty: none of such
   bool needs_model = false;
   std::vector<Figure> (*make)(const ResultView&) =
-      nullptr;                ///< the most telling one first; may be none
-  bool takes_window = false;  ///< whether ResultView::window says what is drawn
+      nullptr;                            ///< the most telling one first; may be none
+  bool takes_window = false;              ///< whether ResultView::window says what is drawn
+  std::vector<std::string_view> takes{};  ///< options of ResultView::view that it takes
+  /// Of kinds that a model is drawn as without a result.
+  std::vector<Figure> (*of_model)(const Model&, const Assembler&) = nullptr;
+
+  /// A dataset that its results have; empty: there is none.
+  std::string first_need() const {
+    return !needs.empty() ? needs.front() : !needs_one.empty() ? needs_one.front() : "";
+  }
 };
 
 /// All kinds, in the order of a report. A new kind is a file in figures/ and a line in figures.cpp.

@@ -10,6 +10,7 @@
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -39,8 +40,9 @@ struct FittedSamples {
   }
   std::string subtitle(const MeasuredFit& fit) const {
     const std::string name = fit.files.size() > 1 ? record.file + ": " : "";
-    return fmt::format("{}{:.4g} revolutions at {:.4g} rpm, {:.4g} % of the variance explained",
-                       name, record.revolutions, record.speed / rpm, 100.0 * fit.explained);
+    return fmt::format("{}{:.4g} revolutions at {}, {:.4g} % of the variance explained", name,
+                       record.revolutions, shown_value(record.speed, "rpm", ".4g"),
+                       100.0 * fit.explained);
   }
 };
 

@@ -10,6 +10,7 @@
 #include "libio/figures/bode_curves.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -37,7 +38,7 @@ double largest_bounded(const CMat& a) {
 
 /// Where every curve is largest.
 FigureTable table_of_largest(const std::vector<double>& speed, const BodeCurves& shown) {
-  FigureTable t{.header = {"", with_unit("largest p-p", shown.unit), "at [rpm]"}};
+  FigureTable t{.header = {"", with_unit("largest p-p", shown.unit), shown_heading("at", "rpm")}};
   for (std::size_t i = 0; i < shown.names.size(); ++i) {
     double most = 0.0, at = std::nan("");
     for (Eigen::Index k = 0; k < shown.a.cols(); ++k) {
@@ -45,7 +46,7 @@ FigureTable table_of_largest(const std::vector<double>& speed, const BodeCurves&
       if (size > most) most = size, at = speed[static_cast<std::size_t>(k)];
     }
     t.rows.push_back({shown.names[i], fmt::format("{:.4g}", 2.0 * shown.unit.factor * most),
-                      std::isfinite(at) ? fmt::format("{:.0f}", at) : "–"});
+                      std::isfinite(at) ? speed_label(at) : "–"});
   }
   return t;
 }
@@ -58,8 +59,7 @@ Figure forced_figure(const ResultView& result, const std::vector<double>& speed,
   f.subtitle = fmt::format("Response to forces of {} along {}, amplitude peak to peak", force,
                            along == "x" || along == "y" ? along : "the probes");
   f.table = table_of_largest(speed, shown);
-  f.notes = {
-      fmt::format("At the frequency of the force, {}; phases are ahead of its angle.", force)};
+  f.notes = {fmt::format("At the frequency of the force, {}; phases lag behind its angle.", force)};
   return f;
 }
 
@@ -109,7 +109,7 @@ std::vector<BodeCurves> reading_curves(const ResultView& result, const Unbalance
 
 std::vector<Figure> forced_figures(const ResultView& result) {
   const auto& study = result_of<UnbalanceStudy>(result);
-  const std::vector<double> speed = scaled(study.speeds, 1.0 / rpm);
+  const std::vector<double> speed = scaled(study.speeds, 1.0 / speed_unit().size);
   std::vector<Figure> figures;
   for (const std::string& force : forces_of(study)) {
     const std::vector<BodeCurves> readings = reading_curves(result, study, force);

@@ -7,6 +7,7 @@
 #include "libdyn/linear/frequency_response.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -37,7 +38,7 @@ Figure figure_of(const ResultView& result, const FrequencyResponse& found,
                  const ResponseForm& form) {
   Figure f{.variant = form.name, .height = 560.0};
   const DisplayUnit in = result.frequency;
-  f.subtitle = fmt::format("{} at {:.0f} rpm", form.name, found.speed / rpm);
+  f.subtitle = fmt::format("{} at {}", form.name, shown_value(found.speed, "rpm", ".0f"));
   f.subtitle.front() = static_cast<char>(std::toupper(f.subtitle.front()));
   Panel amplitude, phase;
   for (Panel* p : {&amplitude, &phase}) {
@@ -51,8 +52,8 @@ Figure figure_of(const ResultView& result, const FrequencyResponse& found,
     }
   }
   amplitude.share = 1.5;
-  amplitude.y = {.title = fmt::format("{} [{}]", form.name, form.unit),
-                 .scale = Scale::logarithmic};
+  const double per_unit = 1.0 / shown_unit(form.unit).size;
+  amplitude.y = {.title = shown_heading(form.name, form.unit), .scale = Scale::logarithmic};
   phase.y = {.title = "phase [deg]", .first = -180.0, .last = 180.0, .step = 90.0};
   const std::vector<bool> silent = found.silent_pairs();
   for (std::size_t i = 0; i < std::min(most_curves, found.pairs.size()); ++i) {
@@ -64,9 +65,10 @@ Figure figure_of(const ResultView& result, const FrequencyResponse& found,
     Curve c{.name = fmt::format("{} by {}", pair.to, pair.from),
             .paint = series_paint(i),
             .x = scaled(found.frequencies, in.factor)};
+    c.dash = series_dash(i);
     Curve lag = c;
     for (const Complex& v : pair.*form.values) {
-      c.y.push_back(std::abs(v) > 0.0 ? std::abs(v) : not_set);
+      c.y.push_back(std::abs(v) > 0.0 ? per_unit * std::abs(v) : not_set);
     }
     lag.y = phases(pair.*form.values);
     amplitude.curves.push_back(std::move(c));

@@ -10,11 +10,11 @@ namespace whirl::inline io::figures {
 Figure full_spectrum(const ResultView& result, const std::string& station, const Vec& frequency,
                      const Vec& amplitude, const DisplayUnit& unit) {
   const double speed = speed_of(result);
-  const bool spins = std::isfinite(speed) && speed > 0.0;
+  const bool spins = std::isfinite(speed) && speed > 0.0 && !run_up_of(result);
   const double largest = amplitude.maxCoeff();
   Figure f{.variant = station, .width = 860.0, .height = 430.0};
   f.subtitle =
-      fmt::format("{}: full spectrum{}, backward left, forward right", station, at_speed(result));
+      fmt::format("{}: full spectrum{}, backward left, forward right", station, at_speeds(result));
   Panel p;
   p.cursor = "frequency";
   const DisplayUnit in = result.frequency;

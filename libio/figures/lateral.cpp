@@ -8,6 +8,7 @@
 #include "libdyn/linear/lateral_report.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/lateral_text.hpp"
 
 namespace whirl::inline io {
@@ -19,13 +20,14 @@ using namespace figures;
 /// Minimum, maximum and trip speed across a figure over speed.
 void add_speeds(const LateralReport& r, Figure& f, Panel& p) {
   const auto rule = [&](double speed, const char* name, Dash dash) {
-    p.rules.push_back({Rule::Kind::vertical, speed / rpm, name, Paint::gray, dash});
+    p.rules.push_back({Rule::Kind::vertical, speed / speed_unit().size, name, Paint::gray, dash});
   };
   rule(r.minimum_speed, "min", Dash::dashed);
   if (r.maximum_speed > r.minimum_speed) rule(r.maximum_speed, "max", Dash::dashed);
   if (r.trip_speed > r.maximum_speed) {
     rule(r.trip_speed, "", Dash::dotted);  // the name of the maximum is there
-    f.notes.push_back(fmt::format("Dotted: trip speed, {:.0f} rpm.", r.trip_speed / rpm));
+    f.notes.push_back(
+        fmt::format("Dotted: trip speed, {}.", shown_value(r.trip_speed, "rpm", ".0f")));
   }
 }
 
@@ -48,13 +50,13 @@ Curve forbidden_area(const LateralReport& r, double highest) {
   for (int k = points; k >= 0; --k) {
     const double AF = damped + (highest - damped) * k / points;
     const double share = separation_margin(peak(0.5 * range.minimum, AF), range).required;
-    c.x.push_back(range.minimum * (1.0 - share) / rpm);
+    c.x.push_back(range.minimum * (1.0 - share) / speed_unit().size);
     c.y.push_back(AF);
   }
   for (int k = 0; k <= points; ++k) {
     const double AF = damped + (highest - damped) * k / points;
     const double share = separation_margin(peak(2.0 * range.maximum, AF), range).required;
-    c.x.push_back(range.maximum * (1.0 + share) / rpm);
+    c.x.push_back(range.maximum * (1.0 + share) / speed_unit().size);
     c.y.push_back(AF);
   }
   c.x.push_back(c.x.front());
@@ -78,7 +80,9 @@ std::vector<Figure> lateral_figures(const ResultView& result) {
   Figure f{.width = 960.0, .height = 340.0};
   f.subtitle = verdict_text(r);
   Panel p;
-  p.x = {.title = "speed [rpm]", .first = r.speeds.front() / rpm, .last = r.speeds.back() / rpm};
+  p.x = {.title = shown_heading("speed", "rpm"),
+         .first = r.speeds.front() / speed_unit().size,
+         .last = r.speeds.back() / speed_unit().size};
   double highest = 10.0;
   for (const LateralPeak& peak : r.peaks) {
     if (std::isfinite(peak.amplification()))
@@ -93,7 +97,7 @@ std::vector<Figure> lateral_figures(const ResultView& result) {
     peaks.size = 9.0;
     for (const LateralPeak& peak : r.peaks) {
       if (peak.of_case != static_cast<int>(c) || !std::isfinite(peak.amplification())) continue;
-      peaks.x.push_back(peak.speed / rpm);
+      peaks.x.push_back(peak.speed / speed_unit().size);
       peaks.y.push_back(peak.amplification());
       peaks.hover.push_back(r.probes[static_cast<std::size_t>(peak.row)].station);
     }
@@ -114,8 +118,9 @@ std::string planes_text(const LateralReport& r, int number) {
   std::string text;
   for (const LateralPlane& p : r.planes) {
     if (p.of_case != number) continue;
-    text += fmt::format("{}{:.0f} g.mm at {}{}", text.empty() ? "" : ", ", 1e6 * p.moment,
-                        p.station, p.phase > 0.0 ? " against it" : "");
+    text +=
+        fmt::format("{}{} at {}{}", text.empty() ? "" : ", ", shown_value(p.moment, "g.mm", ".0f"),
+                    p.station, p.phase > 0.0 ? " against it" : "");
   }
   return text;
 }
@@ -128,20 +133,23 @@ std::vector<Figure> response_figures(const ResultView& result) {
     Figure f{.variant = case_name(number), .height = 400.0};
     f.subtitle = "Response to " + planes_text(r, number);
     Panel p;
-    p.x = {.title = "speed [rpm]", .first = r.speeds.front() / rpm, .last = r.speeds.back() / rpm};
+    p.x = {.title = shown_heading("speed", "rpm"),
+           .first = r.speeds.front() / speed_unit().size,
+           .last = r.speeds.back() / speed_unit().size};
     p.y = {.title = fmt::format("peak to peak [{}]", unit.name), .first = 0.0};
     p.cursor = "speed";
     for (const LateralResponse& response : r.responses) {
       if (response.of_case != number) continue;
       const auto probe = static_cast<std::size_t>(response.probe);
       Curve c{.name = r.probes[probe].station, .paint = series_paint(probe)};
-      c.x = scaled(r.speeds, 1.0 / rpm);
+      c.dash = series_dash(probe);
+      c.x = scaled(r.speeds, 1.0 / speed_unit().size);
       c.y = scaled(numbers(response.peak_to_peak), unit.factor);
       p.curves.push_back(std::move(c));
     }
     Curve limit{.name = "limit", .paint = Paint::alarm};
     limit.dash = Dash::dashed;
-    limit.x = {r.minimum_speed / rpm, r.maximum_speed / rpm};
+    limit.x = {r.minimum_speed / speed_unit().size, r.maximum_speed / speed_unit().size};
     limit.y = {unit.factor * r.vibration_limit, unit.factor * r.vibration_limit};
     if (r.minimum_speed < r.maximum_speed) p.curves.push_back(std::move(limit));
     add_speeds(r, f, p);
@@ -157,26 +165,43 @@ std::vector<Figure> response_figures(const ResultView& result) {
 std::vector<Figure> stability_figures(const ResultView& result) {
   const auto& r = result_of<LateralReport>(result);
   Figure f{.height = 380.0};
-  f.subtitle = fmt::format("Cross-coupled stiffness at {}, {:.0f} rpm", r.coupled_station,
-                           r.maximum_speed / rpm);
+  f.subtitle = fmt::format("Cross-coupled stiffness at {}, {}", r.coupled_station,
+                           shown_value(r.maximum_speed, "rpm", ".0f"));
   Panel p;
-  p.x = {.title = "cross-coupled stiffness [MN/m]"};
+  const double per_stiffness = 1.0 / shown_unit("MN/m").size;
+  p.x = {.title = shown_heading("cross-coupled stiffness", "MN/m")};
   p.y = {.title = "logarithmic decrement"};
-  Curve c{.name = "least damped mode", .paint = Paint::forward};
-  for (const CoupledMode& m : r.coupled_modes) {
-    c.x.push_back(1e-6 * m.coupling);
+  const auto add = [&](const CoupledMode& m, Curve& c) {
+    c.x.push_back(per_stiffness * m.coupling);
     c.y.push_back(m.log_decrement);
-    c.hover.push_back(fmt::format("whirls at {:.1f} rpm", m.frequency / rpm));
+    c.hover.push_back(fmt::format("whirls at {}", shown_value(m.frequency, "rpm", ".1f")));
+  };
+  const auto& states = result_of<LateralParts>(result).coupled;
+  if (states.empty()) {
+    Curve c{.name = "least damped mode", .paint = Paint::forward};
+    for (const CoupledMode& m : r.coupled_modes) add(m, c);
+    p.curves.push_back(std::move(c));
+  } else {
+    f.notes.push_back(
+        "The least damped mode of the model and of each variant; Q0 is that of the worst.");
   }
-  p.curves.push_back(std::move(c));
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (i == 0 || states[i].variant != states[i - 1].variant) {
+      const std::string name = state_name(states[i].variant);
+      p.curves.push_back({.name = name, .paint = series_paint(p.curves.size())});
+    }
+    add(states[i], p.curves.back());
+  }
   p.rules.push_back({Rule::Kind::horizontal, 0.0, "stable above", Paint::gray, Dash::solid});
   p.rules.push_back(
       {Rule::Kind::horizontal, least_log_decrement, "0.1", Paint::alarm, Dash::dashed});
   if (std::isfinite(r.limit)) {
-    p.rules.push_back({Rule::Kind::vertical, 1e-6 * r.limit, "Q0", Paint::ink, Dash::dotted});
+    p.rules.push_back(
+        {Rule::Kind::vertical, per_stiffness * r.limit, "Q0", Paint::ink, Dash::dotted});
   }
   if (r.anticipated > 0.0) {
-    p.rules.push_back({Rule::Kind::vertical, 1e-6 * r.anticipated, "QA", Paint::ink, Dash::dotted});
+    p.rules.push_back(
+        {Rule::Kind::vertical, per_stiffness * r.anticipated, "QA", Paint::ink, Dash::dotted});
   }
   f.panels.push_back(std::move(p));
   return {f};
@@ -198,7 +223,7 @@ FigureKind lateral_kind() {
 FigureKind lateral_response_kind() {
   return {
       .name = "lateral_response",
-      .title = "Unbalance at antinodes",
+      .title = "Unbalance at antinodes and overhung ends",
       .summary = "vibration of probes over speed beside its limit, a case of unbalance each",
       .needs = {dataset_of<LateralReport>(&LateralResponse::peak_to_peak)},
       .make = response_figures,

@@ -7,6 +7,7 @@
 #include "libio/drawing/disk_shape.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -27,7 +28,7 @@ Curve area(const std::string& name, Paint paint, std::vector<double> x, std::vec
   return c;
 }
 
-/// Both halves of a ring of a section, seen from the side [mm].
+/// Both halves of a ring of a section, seen from the side [shown unit of mm].
 void add_body(Panel& p, const std::string& name, Paint paint, double from, double to, Section left,
               Section right, const std::string& hover) {
   if (left.inner <= 0.0 && right.inner <= 0.0) {
@@ -83,12 +84,12 @@ void add_names(Panel& p, std::vector<Name> names, double length, double top, dou
 std::string stiffness_text(const Connection& b) {
   if (b.is_rigid || b.is_clamped) return "rigid";
   const BearingCoefficients c = coefficients(b.coefficients, 0.0);
-  return fmt::format("{}, {} N.s/m", format_engineering(c.K(0, 0), "N/m"), c.C(0, 0));
+  return fmt::format("{}, {}", format_engineering(c.K(0, 0), "N/m"),
+                     format_engineering(c.C(0, 0), "N.s/m"));
 }
 
 /// A rotor of bodies only: contacts seen along the axis.
-std::vector<Figure> front_view(const ResultView& result) {
-  const Model& model = *result.model;
+std::vector<Figure> front_view(const Model& model) {
   if (model.contacts.empty()) return {};
   Figure f{.subtitle = "Rotor and stators, seen along the axis; clearances enlarged"};
   f.columns = static_cast<int>(std::min<std::size_t>(3, model.contacts.size()));
@@ -100,11 +101,11 @@ std::vector<Figure> front_view(const ResultView& result) {
     p.title = c.name;
     const double radius = c.friction.radius > 0.0 ? c.friction.radius : 5.0 * c.clearance;
     const double gap = std::max(c.clearance, 0.12 * radius);
-    p.x.title = "x [mm]";
-    p.y.title = "y [mm]";
+    p.x.title = shown_heading("x", "mm");
+    p.y.title = shown_heading("y", "mm");
     const bool is_given = c.friction.radius > 0.0;
-    Curve rotor =
-        figures::circle(is_given ? "rotor" : "rotor, size not given (symbol)", mm * radius);
+    Curve rotor = figures::circle(is_given ? "rotor" : "rotor, size not given (not to scale)",
+                                  per_mm() * radius);
     rotor.paint = Paint::disk;
     rotor.dash = is_given ? Dash::solid : Dash::dashed;
     rotor.fill = is_given ? 0.4 : 0.0;
@@ -115,10 +116,11 @@ std::vector<Figure> front_view(const ResultView& result) {
     const auto direction = direction_of(geometry);
     const auto stator = [&](double distance) {
       if (direction) {
-        return figures::line_across("stator", *direction, mm * (distance + gap), mm * radius);
+        return figures::line_across("stator", *direction, per_mm() * (distance + gap),
+                                    per_mm() * radius);
       }
       return figures::curve_around("stator", [&](const Vec2& along) {
-        return mm * (distance + reach_of(geometry, gap, along));
+        return per_mm() * (distance + reach_of(geometry, gap, along));
       });
     };
     Curve inner = stator(radius), outer = stator(1.12 * radius);
@@ -127,7 +129,7 @@ std::vector<Figure> front_view(const ResultView& result) {
     inner.hover.assign(inner.x.size(), "clearance " + format_length(c.clearance));
     p.curves = {outer, inner, rotor};
     const double reach =
-        direction ? mm * (1.12 * radius + gap) : *std::ranges::max_element(outer.y);
+        direction ? per_mm() * (1.12 * radius + gap) : *std::ranges::max_element(outer.y);
     p.labels.push_back({0.0, reach, "clearance " + format_length(c.clearance), Anchor::middle, 0.0,
                         -7.0, Paint::stator});
     const double widest = direction ? reach : std::max(reach, *std::ranges::max_element(outer.x));
@@ -138,11 +140,11 @@ std::vector<Figure> front_view(const ResultView& result) {
   return {f};
 }
 
-/// A rotor seen from the side, while its parts are added to the panel [mm].
+/// A rotor seen from the side, while its parts are added to the panel [shown unit of mm].
 struct SideView {
   const Model& model;
   const Assembler& assembler;
-  double length = 0.0;  ///< of the shaft
+  double length = 0.0;  ///< of all shafts
   Panel panel{};
   std::vector<Name> names{};
   double top = 0.0;  ///< largest radius so far
@@ -150,23 +152,28 @@ struct SideView {
   double symbol() const { return 0.022 * length; }  ///< size of a bearing's triangle
   /// Along the shaft; below zero if a station is not on it.
   double position(const Station& station) const {
-    const Point point = assembler.point(station);
-    const auto& z = assembler.mesh().z;
-    return point.kind == Point::Kind::node ? mm * z[static_cast<std::size_t>(point.index)] : -1.0;
+    const auto z = assembler.mesh().position_of(assembler.point(station));
+    return z ? per_mm() * *z : -1.0;
   }
-  double shaft_radius(double at) const {
-    return 0.5 * mm * shaft_diameter(model.structure, assembler.mesh(), at / mm);
+  /// Of the shaft at a station on it.
+  double shaft_radius(const Station& station) const {
+    const Point p = assembler.point(station);
+    if (p.kind != Point::Kind::node) return 0.0;
+    return 0.5 * per_mm() * diameter_at(model.structure, assembler.mesh(), p.index);
   }
-  /// A piece of the shaft, or a layer on it [mm].
+  /// A piece of the shaft, or a layer on it [shown unit of mm].
   /// @param fill  how dense it is painted
   void add_part(const std::string& kind, const std::string& name, const auto& part, double from,
                 double to, double fill) {
     const std::size_t before = panel.curves.size();
-    const auto shown = [](const Section& c) { return Section{mm * c.outer, mm * c.inner}; };
-    const double left = mm * part.left.outer, right = mm * part.right.outer;
-    add_body(panel, kind, Paint::shaft, from, to, shown(part.left), shown(part.right),
-             fmt::format("{}: {:g} to {:g} mm, diameter {:g}{} mm", name, from, to, left,
-                         right == left ? "" : fmt::format(" to {:g}", right)));
+    const auto shown = [](const Section& c) {
+      return Section{per_mm() * c.outer, per_mm() * c.inner};
+    };
+    const double left = per_mm() * part.left.outer, right = per_mm() * part.right.outer;
+    add_body(
+        panel, kind, Paint::shaft, from, to, shown(part.left), shown(part.right),
+        fmt::format("{0}: {1:g} to {2:g} {5}, diameter {3:g}{4} {5}", name, from, to, left,
+                    right == left ? "" : fmt::format(" to {:g}", right), shown_unit("mm").name));
     for (std::size_t i = before; i < panel.curves.size(); ++i) panel.curves[i].fill = fill;
     top = std::max({top, 0.5 * left, 0.5 * right});
   }
@@ -178,18 +185,22 @@ struct SideView {
 };
 
 void add_shaft(SideView& v) {
-  const auto& shaft = v.model.structure.shaft;
-  double z = 0.0;
-  for (std::size_t i = 0; i < shaft.size(); ++i) {
-    const Segment& segment = shaft[i];
-    const double to = z + mm * segment.length;
-    v.add_part("shaft", fmt::format("section {}", i + 1), segment, z, to, of_parts);
-    z = to;
-  }
   const Structure& s = v.model.structure;
+  for (const Structure::Shaft& shaft : s.shafts()) {
+    double z = per_mm() * shaft.start;
+    for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
+      const Segment& segment = shaft.segments[i];
+      const double to = z + per_mm() * segment.length;
+      const std::string of = shaft.name.empty() ? "" : " of " + shaft.name;
+      v.add_part(shaft.name.empty() ? "shaft" : "shaft " + shaft.name,
+                 fmt::format("section {}{}", i + 1, of), segment, z, to,
+                 shaft.name.empty() ? of_parts : of_layers);
+      z = to;
+    }
+  }
   for (const Layer& layer : s.layers) {
     const LayerSpan span = span_of(layer, s, v.assembler.mesh());
-    v.add_part("layer", layer.name, layer, mm * span.from, mm * span.to, of_layers);
+    v.add_part("layer", layer.name, layer, per_mm() * span.from, per_mm() * span.to, of_layers);
   }
 }
 
@@ -210,9 +221,9 @@ void add_disks(SideView& v) {
   const Structure& s = v.model.structure;
   for (const Disk& d : s.disks) {
     const DiskShape shape = disk_shape(d, v.model, v.assembler);
-    const double at = v.position(d.at), half = 0.5 * mm * shape.width;
-    const double outer = 2.0 * mm * shape.outer_radius;
-    const double inner = mm * shaft_diameter(s, v.assembler.mesh(), at / mm);
+    const double at = v.position(d.at), half = 0.5 * per_mm() * shape.width;
+    const double outer = 2.0 * per_mm() * shape.outer_radius;
+    const double inner = 2.0 * v.shaft_radius(d.at);
     const std::string hover =
         fmt::format("{}: {:.4g} kg, Ip {:.4g}, Id {:.4g} kg.m²{}", d.name, d.m, d.Ip, d.Id,
                     shape.not_given.empty() ? "" : fmt::format(", {} not given", shape.not_given));
@@ -236,7 +247,7 @@ void add_bearings(SideView& v) {
   for (const Connection& b : v.model.structure.bearings) {
     const double at = v.position(b.from);
     if (at < 0.0) continue;
-    const double radius = v.shaft_radius(at);
+    const double radius = v.shaft_radius(b.from);
     for (const double side : {1.0, -1.0}) {
       v.panel.curves.push_back(
           area("bearing", Paint::bearing, {at, at + 0.6 * symbol, at - 0.6 * symbol, at},
@@ -253,7 +264,7 @@ void add_seals(SideView& v) {
   for (const Connection& s : v.model.structure.seals) {
     const double at = v.position(s.from);
     if (at < 0.0) continue;
-    const double tip = v.shaft_radius(at) + gap, top = tip + 0.7 * symbol;
+    const double tip = v.shaft_radius(s.from) + gap, top = tip + 0.7 * symbol;
     for (const double side : {1.0, -1.0}) {
       const SealShape shape = seal_shape(at, 0.8 * symbol, side * tip, side * top);
       v.panel.curves.push_back(area("seal", Paint::seal, shape.x, shape.y,
@@ -279,9 +290,9 @@ void add_films(SideView& v) {
   for (const OilFilm& f : v.model.films) {
     const double at = v.position(f.at);
     if (at < 0.0) continue;
-    const double low = std::max(mm * f.bearing.radius, v.shaft_radius(at)) +
-                       std::max(mm * f.bearing.clearance, 0.004 * v.length);
-    add_ring(v, "oil film", Paint::bearing, at, 0.5 * mm * f.bearing.length, low,
+    const double low = std::max(per_mm() * f.bearing.radius, v.shaft_radius(f.at)) +
+                       std::max(per_mm() * f.bearing.clearance, 0.004 * v.length);
+    add_ring(v, "oil film", Paint::bearing, at, 0.5 * per_mm() * f.bearing.length, low,
              fmt::format("oil film {}: clearance {}", f.name, format_length(f.bearing.clearance)));
     v.add_name(at, low + 0.5 * v.symbol(), f.name, Paint::bearing, true);
   }
@@ -292,8 +303,9 @@ void add_contacts(SideView& v) {
   for (const Contact& c : v.model.contacts) {
     const double at = v.position(c.at);
     if (at < 0.0) continue;
-    const double radius = c.friction.radius > 0.0 ? mm * c.friction.radius : v.shaft_radius(at);
-    const double low = radius + std::max(mm * c.clearance, 0.004 * v.length);
+    const double radius =
+        c.friction.radius > 0.0 ? per_mm() * c.friction.radius : v.shaft_radius(c.at);
+    const double low = radius + std::max(per_mm() * c.clearance, 0.004 * v.length);
     add_ring(v, "contact", Paint::stator, at, 0.8 * symbol, low,
              fmt::format("contact {}: clearance {}", c.name, format_length(c.clearance)));
     v.add_name(at, low + 0.5 * symbol, c.name, Paint::stator, true);
@@ -306,7 +318,7 @@ void add_probe_bars(SideView& v) {
   for (const Probe& probe : v.model.structure.probes) {
     const double at = v.position(probe.at);
     if (at < 0.0) continue;
-    const double near = v.shaft_radius(at) + gap, far = near + 1.4 * symbol;
+    const double near = v.shaft_radius(probe.at) + gap, far = near + 1.4 * symbol;
     const bool is_below = std::sin(probe.angle) < 0.0;
     const double side = is_below ? -1.0 : 1.0;
     Curve bar{.name = "probe", .paint = Paint::stator};
@@ -315,7 +327,7 @@ void add_probe_bars(SideView& v) {
     bar.y = {side * near, side * far};
     if (probe.is_axial()) {
       bar.x = {at + gap, at + gap + 1.4 * symbol};
-      bar.y.assign(2, side * mm * probe.face_radius);
+      bar.y.assign(2, side * per_mm() * probe.face_radius);
     }
     const double top = std::abs(bar.y.back());
     bar.hover.assign(2, "probe " + probe_name(probe));
@@ -335,7 +347,7 @@ void add_nodes(SideView& v) {
     if (n.node() > 0) what[static_cast<std::size_t>(n.node() - 1)] = n.name;
   }
   for (std::size_t i = 0; i < z.size(); ++i) {
-    nodes.x.push_back(mm * z[i]);
+    nodes.x.push_back(per_mm() * z[i]);
     nodes.y.push_back(0.0);
     nodes.hover.push_back(fmt::format("node {}{}{}", i + 1, what[i].empty() ? "" : ": ", what[i]));
   }
@@ -348,9 +360,9 @@ void add_nodes(SideView& v) {
   v.panel.curves.push_back(nodes);
 }
 
-std::vector<Figure> layout_figures(const ResultView& result) {
-  SideView v{*result.model, *result.assembler, mm * result.model->structure.length()};
-  if (!(v.length > 0.0)) return front_view(result);
+std::vector<Figure> layout_of(const Model& model, const Assembler& assembler) {
+  SideView v{model, assembler, per_mm() * model.structure.extent()};
+  if (!(v.length > 0.0)) return front_view(model);
   add_shaft(v);
   add_disks(v);
   add_bearings(v);
@@ -365,8 +377,8 @@ std::vector<Figure> layout_figures(const ResultView& result) {
   double reach = v.top;
   for (const Label& l : p.labels) reach = std::max(reach, std::abs(l.y) + 0.5 * pitch);
   p.has_equal_scales = true;
-  p.x.title = "z [mm]";
-  p.y.title = "radius [mm]";
+  p.x.title = shown_heading("z", "mm");
+  p.y.title = shown_heading("radius", "mm");
   p.x.first = -0.04 * v.length;
   p.x.last = 1.04 * v.length;
   p.y.first = -reach;
@@ -375,9 +387,19 @@ std::vector<Figure> layout_figures(const ResultView& result) {
   f.notes = {
       "Symbols without scale: bearings, seals, probes, and the length and height of contacts. Gaps "
       "are drawn as 0.4 % of the shaft's length where they are less."};
+  const auto is_symbol = [](const Disk& d) { return !(d.outer_diameter > 0.0); };
+  if (std::ranges::any_of(model.structure.disks, is_symbol)) {
+    f.notes.push_back(
+        "Broken lines, not to scale: disks whose size the model does not give. Their height above "
+        "the shaft says the polar inertia, as far as no contact says a radius.");
+  }
   f.height = std::clamp(140.0 + 2.0 * reach / (1.08 * v.length) * 750.0, 260.0, 760.0);
   f.panels.push_back(std::move(p));
   return {f};
+}
+
+std::vector<Figure> layout_figures(const ResultView& result) {
+  return layout_of(*result.model, *result.assembler);
 }
 
 }  // namespace
@@ -390,6 +412,7 @@ FigureKind layout_kind() {
       .subject = Subject::rotor,
       .needs_model = true,
       .make = layout_figures,
+      .of_model = layout_of,
   };
 }
 

@@ -173,7 +173,8 @@ std::vector<Figure> contact_edge_figures(const ResultView& result) {
         c.name = fmt::format("{}{}", from == Regime::none ? "contact" : "permanent contact",
                              planes.z.values.empty() ? "" : ", " + planes.variant(plane));
         c.paint = series_paint(plane);
-        if (from == Regime::permanent) c.dash = Dash::dashed;
+        c.dash = series_dash(plane);  // of several planes edges may lie on each other
+        c.width = from == Regime::permanent ? 2.4 : 1.3;
         p.curves.push_back(std::move(c));
       }
     }

@@ -12,6 +12,7 @@
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
 #include "libio/figures/shaft_shapes.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -70,7 +71,7 @@ Curve mode_curve(const ShaftShapes& shapes, const PeakShape& shape, double angle
       shape.factor * turned *
       (std::cos(angle) * shapes.x.col(shape.mode) + std::sin(angle) * shapes.y.col(shape.mode));
   for (std::size_t i = 0; i < shapes.z.size(); ++i) {
-    c.x.push_back(mm * shapes.z[i]);
+    c.x.push_back(per_mm() * shapes.z[i]);
     c.y.push_back(factor * along(static_cast<Eigen::Index>(i)).real());
     c.hover.push_back(shapes.names[i]);
   }
@@ -104,7 +105,7 @@ Panel deflection_panel(const ResultView& result, const ShaftShapes& shapes, cons
     ++group;
     for (Eigen::Index i = 0; i < read.size(); ++i) {
       const std::size_t number = numbers[static_cast<std::size_t>(i)];
-      c.x.push_back(mm * shape.measured.probe_z(static_cast<Eigen::Index>(number)));
+      c.x.push_back(per_mm() * shape.measured.probe_z(static_cast<Eigen::Index>(number)));
       c.y.push_back(unit.factor * (turned * read(i)).real());
       c.hover.push_back(shape.measured.probes[number].name);
     }

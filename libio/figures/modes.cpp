@@ -40,29 +40,40 @@ Panel shape_panel(const ResultView& result, const ShaftShapes& shapes, Eigen::In
   Curve x{.name = "x at its largest", .paint = Paint::series};
   Curve y{.name = "y at its largest", .paint = series_paint(1)};
   y.dash = Dash::dashed;
-  Curve outline{.name = fmt::format("envelope of the orbits: {}", name_of(whirl)),
-                .paint = whirl_style(whirl).paint};
-  outline.has_line = false;
-  outline.fill = 0.16;
   const CVec a = shapes.x.col(k), b = shapes.y.col(k);
   const Vec major = 0.5 * ((a + Complex(0, 1) * b).cwiseAbs() + (a - Complex(0, 1) * b).cwiseAbs());
   const double largest = major.maxCoeff();
   if (!(largest > 0.0)) return {};
   const Complex turn_x = turn_of(a), turn_y = turn_of(b);
-  for (std::size_t i = 0; i < shapes.z.size(); ++i) {
+  const std::vector<double> z = scaled(shapes.z, per_mm());
+  for (std::size_t i = 0; i < z.size(); ++i) {
     const auto place = static_cast<Eigen::Index>(i);
-    for (Curve* c : {&x, &y, &outline}) c->x.push_back(1e3 * shapes.z[i]);
+    x.x.push_back(z[i]);
+    y.x.push_back(z[i]);
     x.y.push_back((turn_x * a(place)).real() / largest);
     y.y.push_back((turn_y * b(place)).real() / largest);
-    outline.y.push_back(major(place) / largest);
     x.hover.push_back(shapes.names[i]);
     y.hover.push_back(shapes.names[i]);
   }
-  for (std::size_t i = shapes.z.size(); i-- > 0;) {
-    outline.x.push_back(1e3 * shapes.z[i]);
-    outline.y.push_back(-outline.y[i]);
+  for (std::size_t first = 0; first < z.size();) {  // shaft by shaft
+    std::size_t end = first;
+    while (end < z.size() && std::isfinite(z[end])) ++end;
+    Curve outline{.name = fmt::format("envelope of the orbits: {}", name_of(whirl)),
+                  .paint = whirl_style(whirl).paint};
+    outline.has_line = false;
+    outline.fill = 0.16;
+    for (std::size_t i = first; i < end; ++i) {
+      outline.x.push_back(z[i]);
+      outline.y.push_back(major(static_cast<Eigen::Index>(i)) / largest);
+    }
+    for (std::size_t i = end; i-- > first;) {
+      outline.x.push_back(z[i]);
+      outline.y.push_back(-major(static_cast<Eigen::Index>(i)) / largest);
+    }
+    p.curves.push_back(std::move(outline));
+    first = end + 1;
   }
-  p.curves.insert(p.curves.end(), {outline, x, y});
+  p.curves.insert(p.curves.end(), {x, y});
   p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::dash_dot});
   return p;
 }

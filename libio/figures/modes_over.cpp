@@ -61,7 +61,6 @@ std::vector<Figure> modes_over_figures(const ResultView& result) {
   }
   frequency.y = {.title = with_unit("natural frequency", v.unit), .first = 0.0};
   decrement.y.title = "log decrement";
-  double largest = 0.0;
   for (std::size_t i = 0; i < v.found.branches.size(); ++i) {
     const ModesOverBranch& branch = v.found.branches[i];
     Curve c = v.curve(i);
@@ -72,18 +71,20 @@ std::vector<Figure> modes_over_figures(const ResultView& result) {
     Curve d = c;
     c.y = scaled(numbers(branch.frequency), v.unit.factor);
     d.y = numbers(branch.log_decrement);
-    largest = std::max(largest, largest_of(d.y));
     frequency.curves.push_back(std::move(c));
     decrement.curves.push_back(std::move(d));
   }
-  if (largest > most_decrement) decrement.y.last = most_decrement;
+  if (std::string note = show_decrements(decrement); !note.empty()) {
+    f.notes.push_back(std::move(note));
+  }
   decrement.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::ink, Dash::solid});
   for (const ModesOverThreshold& t : v.found.thresholds) {
     const double at = t.value / v.axis.factor;
     decrement.rules.push_back(
         {Rule::Kind::vertical, at,
-         fmt::format("{} at {:.4g}", v.name(static_cast<std::size_t>(t.branch)), at), Paint::alarm,
-         Dash::dashed});
+         fmt::format("{} limit {:.4g}{}{}", v.name(static_cast<std::size_t>(t.branch)), at,
+                     v.axis.unit.empty() ? "" : " ", v.axis.unit),
+         Paint::alarm, Dash::dashed});
   }
   f.panels = {std::move(frequency), std::move(decrement)};
   return {f};

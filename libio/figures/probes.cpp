@@ -87,7 +87,7 @@ const Probe* probe_of(const ResultView& result, const std::string& name) {
 
 std::vector<Figure> probe_histories(const ResultView& result) {
   const Motion m(result);
-  const MotionSamples drawn = m.drawn(seen_of_probes), shown = m.shown(seen_of_probes);
+  const MotionSamples drawn = m.drawn(seen_of_probes);
   Figure f{.variant = "probes"};
   f.subtitle = fmt::format("Along the probes: time history{}", at_speed(result));
   for (const ProbeSignal& probe : m.record.probes) {
@@ -95,8 +95,7 @@ std::vector<Figure> probe_histories(const ResultView& result) {
     f.probes.push_back(probe.name);
     const DisplayUnit unit = unit_of(probe);
     Panel p;
-    p.x = {.title = "time [s]", .first = m.time(shown.first), .last = m.time(shown.last)};
-    p.cursor = "time";
+    m.show_over_time(p, seen_of_probes);
     p.y.title = with_unit(probe_name(probe), unit);
     Curve c{.paint = Paint::series, .x = numbers(m.time, drawn)};
     c.y = scaled(numbers(probe.displacement, drawn), unit.factor);
@@ -107,7 +106,7 @@ std::vector<Figure> probe_histories(const ResultView& result) {
   if (f.panels.empty()) return {};
   f.height = 90.0 + 170.0 * static_cast<double>(f.panels.size());
   if (f.panels.size() == 1) f.height = 320.0;
-  f.notes = m.notes(seen_of_probes);
+  f.notes = m.time_notes(seen_of_probes);
   return {f};
 }
 

@@ -7,6 +7,7 @@
 #include "libio/drawing/disk_shape.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io::figures {
 
@@ -51,19 +52,19 @@ Curve symbol_line(const std::string& name, double at, double axis, double radius
 /// @param factor  height in the panel per radius [m]
 void add_disk(Panel& panel, const Disk& disk, const ResultView& result, double axis,
               double factor) {
-  const Point point = result.assembler->point(disk.at);
-  if (point.kind != Point::Kind::node) return;
-  const double at = result.assembler->mesh().z[static_cast<std::size_t>(point.index)];
+  const auto z = result.assembler->mesh().position_of(result.assembler->point(disk.at));
+  if (!z) return;
+  const double at = *z;
   const DiskShape shape = disk_shape(disk, *result.model, *result.assembler);
   const double radius = factor * shape.outer_radius;
   if (!shape.not_given.empty()) {
-    panel.curves.push_back(symbol_line(legend_name(shape), mm * at, axis, radius, disk.name));
+    panel.curves.push_back(symbol_line(legend_name(shape), per_mm() * at, axis, radius, disk.name));
     return;
   }
   const double least = narrowest_disk * result.model->structure.length();
   const double half = 0.5 * std::max(shape.width, least);
-  panel.curves.push_back(box("disk", Paint::disk, mm * (at - half), mm * (at + half), axis - radius,
-                             axis + radius, 0.35, disk.name));
+  panel.curves.push_back(box("disk", Paint::disk, per_mm() * (at - half), per_mm() * (at + half),
+                             axis - radius, axis + radius, 0.35, disk.name));
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   if (!result.assembler) return;
   const Model& model = *result.model;
   const Structure& s = model.structure;
-  const double length = s.length();
+  const double length = s.extent();
   if (!(length > 0.0)) return;
   const VtkScene scene = vtk_scene(model, *result.assembler);
   const Mesh& mesh = result.assembler->mesh();
@@ -84,31 +85,37 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   if (!(largest > 0.0)) return;
   const double factor = height / largest;
   const auto position = [&](const Station& station) {  // [m]; -1: not on the shaft
-    const Point p = result.assembler->point(station);
-    return p.kind == Point::Kind::node ? mesh.z[static_cast<std::size_t>(p.index)] : -1.0;
+    return mesh.position_of(result.assembler->point(station)).value_or(-1.0);
   };
 
-  double z = 0.0;
+  const auto radius_at = [&](const Station& station) {  // [m]; 0: not on the shaft
+    const Point p = result.assembler->point(station);
+    return p.kind == Point::Kind::node ? 0.5 * diameter_at(s, mesh, p.index) : 0.0;
+  };
   const auto add_part = [&](const auto& part, double from, double to) {
     const double left = 0.5 * factor * part.left.outer, right = 0.5 * factor * part.right.outer;
     panel.curves.push_back(
-        area("", Paint::shaft, {mm * from, mm * to, mm * to, mm * from, mm * from},
+        area("", Paint::shaft,
+             {per_mm() * from, per_mm() * to, per_mm() * to, per_mm() * from, per_mm() * from},
              {axis + left, axis + right, axis - right, axis - left, axis + left}, 0.3));
   };
-  for (const Segment& segment : s.shaft) {
-    add_part(segment, z, z + segment.length);
-    z += segment.length;
+  for (const Structure::Shaft& shaft : s.shafts()) {
+    double z = shaft.start;
+    for (const Segment& segment : shaft.segments) {
+      add_part(segment, z, z + segment.length);
+      z += segment.length;
+    }
   }
   for (const Layer& layer : s.layers) {
     const LayerSpan span = span_of(layer, s, mesh);
     add_part(layer, span.from, span.to);
   }
   for (const Disk& disk : s.disks) add_disk(panel, disk, result, axis, factor);
-  const double half = mm * symbol * length;
+  const double half = per_mm() * symbol * length;
   const auto add_bearing = [&](const Station& station, const std::string& name) {
-    const double at = mm * position(station);
+    const double at = per_mm() * position(station);
     if (at < 0.0) return;
-    const double top = axis - 0.5 * factor * shaft_diameter(s, mesh, at / mm);
+    const double top = axis - factor * radius_at(station);
     panel.curves.push_back(
         area("bearing", Paint::bearing, {at, at + half, at - half, at},
              {top, top - bearing_height * height, top - bearing_height * height, top}, 0.75, name));
@@ -116,9 +123,9 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   for (const Connection& b : s.bearings) add_bearing(b.from, b.name);
   for (const OilFilm& f : model.films) add_bearing(f.at, f.name);
   for (const Connection& seal : s.seals) {
-    const double at = mm * position(seal.from);
+    const double at = per_mm() * position(seal.from);
     if (at < 0.0) continue;
-    const double radius = 0.5 * shaft_diameter(s, mesh, at / mm);
+    const double radius = radius_at(seal.from);
     for (const double side : {1.0, -1.0}) {
       const double tip = axis + side * 1.08 * factor * radius;
       const SealShape shape = seal_shape(at, half, tip, tip + side * contact_height * height);
@@ -126,10 +133,9 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
     }
   }
   for (const Contact& c : model.contacts) {
-    const double at = mm * position(c.at);
+    const double at = per_mm() * position(c.at);
     if (at < 0.0) continue;
-    const double radius =
-        c.friction.radius > 0.0 ? c.friction.radius : 0.5 * shaft_diameter(s, mesh, at / mm);
+    const double radius = c.friction.radius > 0.0 ? c.friction.radius : radius_at(c.at);
     for (const double side : {1.0, -1.0}) {
       const double low = axis + side * 1.08 * factor * radius;
       panel.curves.push_back(box("contact", Paint::stator, at - half, at + half, low,

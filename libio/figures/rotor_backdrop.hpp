@@ -4,9 +4,9 @@
 
 namespace whirl::inline io::figures {
 
-/// Draws the rotor faintly behind curves over the position along the shaft [mm]: its outline and
-/// disks, enlarged across the axis, bearings as triangles below, seals and contacts as rings
-/// around it.
+/// Draws the rotor faintly behind curves over the position along the shaft [shown unit of mm]: its
+/// outline and disks, enlarged across the axis, bearings as triangles below, seals and contacts as
+/// rings around it.
 ///
 /// Does nothing for a result whose model cannot be read, or that has no shaft.
 ///

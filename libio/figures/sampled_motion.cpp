@@ -35,6 +35,12 @@ Vec rates(const Vec& values, const Vec& time) {
                        after = std::min(count - 1, j + 1);
     rate(j) = (values(after) - values(before)) / (time(after) - time(before));
   }
+  if (count < 3) return rate;
+  // at the ends of the record by the parabola through three samples, which are equally far apart
+  const auto end = count - 1;
+  rate(0) = (4.0 * values(1) - 3.0 * values(0) - values(2)) / (time(2) - time(0));
+  rate(end) =
+      (3.0 * values(end) - 4.0 * values(end - 1) + values(end - 2)) / (time(end) - time(end - 2));
   return rate;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "libbase/error.hpp"
@@ -10,6 +11,7 @@
 #include "libfe/assembly/shaft_line.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -19,7 +21,7 @@ constexpr int parts = 8;  ///< of an element, between which a shape is drawn str
 
 }  // namespace
 
-ShaftShapes figures::shaft_shapes(const ResultView& result, const CMat& full) {
+figures::ShaftShapes figures::shaft_shapes(const ResultView& result, const CMat& full) {
   const auto& at_rest = result_of<PointNames>(result);
   const Vec& z = at_rest.z;
   const auto nodes = z.size();
@@ -42,8 +44,11 @@ ShaftShapes figures::shaft_shapes(const ResultView& result, const CMat& full) {
       s.x = line.x * full;
       s.y = line.y * full;
       s.names.resize(static_cast<std::size_t>(places));
-      const auto& order = result.assembler->mesh().left_to_right;
-      for (std::size_t i = 0; i < order.size(); ++i) s.names.at(i * parts) = name(order[i]);
+      std::size_t at = 0;
+      for (const std::vector<int>& shaft : result.assembler->mesh().lines()) {
+        for (std::size_t i = 0; i < shaft.size(); ++i) s.names.at(at + i * parts) = name(shaft[i]);
+        at += (shaft.size() - 1) * parts + 2;  // behind the gap
+      }
       return s;
     }
   }
@@ -63,9 +68,16 @@ ShaftShapes figures::shaft_shapes(const ResultView& result, const CMat& full) {
 }
 
 FigureAxis figures::shaft_axis(const ShaftShapes& shapes) {
-  const double first = mm * shapes.z.front(), last = mm * shapes.z.back();
+  double first = INFINITY, last = -INFINITY;
+  for (const double z : shapes.z) {
+    if (!std::isfinite(z)) continue;  // between two shafts
+    first = std::min(first, per_mm() * z);
+    last = std::max(last, per_mm() * z);
+  }
   const double room = 0.03 * (last - first);
-  return {.title = "position along the shaft [mm]", .first = first - room, .last = last + room};
+  return {.title = shown_heading("position along the shaft", "mm"),
+          .first = first - room,
+          .last = last + room};
 }
 
 Complex figures::turn_of(const CVec& values) {

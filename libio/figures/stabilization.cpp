@@ -8,6 +8,7 @@
 #include "libdata/measured/running_modes.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -198,7 +199,8 @@ FigureTable mode_table(const RunningModes& found, const DisplayUnit& unit) {
 
 std::vector<std::string> notes_on(const RunningModes& found) {
   if (found.harmonics == 0) return {};
-  return {fmt::format("{} harmonics of {:.5g} rpm were {}.", found.harmonics, found.speed / rpm,
+  return {fmt::format("{} harmonics of {} were {}.", found.harmonics,
+                      shown_value(found.speed, "rpm", ".5g"),
                       found.are_harmonics_removed ? "taken out of the record before" : "marked")};
 }
 

@@ -12,6 +12,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -41,8 +42,8 @@ constexpr std::array<Plane, 2> planes{
 void label_largest(Panel& p, const Vec& z, const Vec& values, const DisplayUnit& unit) {
   Eigen::Index at = 0;
   values.cwiseAbs().maxCoeff(&at);
-  const double top = unit.factor * values(at), place = mm * z(at);
-  const double middle = 0.5 * mm * (z(0) + z(z.size() - 1));
+  const double top = unit.factor * values(at), place = per_mm() * z(at);
+  const double middle = 0.5 * per_mm() * (z(0) + z(z.size() - 1));
   Label l{place, top, with_minus(fmt::format("{:.4g} {}", top, unit.name))};
   l.anchor = place > middle ? Anchor::end : Anchor::start;
   l.dx = place > middle ? -6.0 : 6.0;
@@ -50,15 +51,30 @@ void label_largest(Panel& p, const Vec& z, const Vec& values, const DisplayUnit&
   p.labels.push_back(l);
 }
 
+/// Where each shaft begins among positions, and where it ends: positions ascend along a shaft.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> shafts_along(const Vec& z) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> all;
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 1; i <= z.size(); ++i) {
+    if (i < z.size() && z(i) >= z(i - 1)) continue;
+    all.emplace_back(first, i);
+    first = i;
+  }
+  return all;
+}
+
 Panel panel_of(const Vec& z, const Line& line, bool is_filled) {
   Panel p;
-  const double length = mm * (z.maxCoeff() - z.minCoeff()), room = 0.03 * length;
-  p.x = {.title = "position along the shaft [mm]",
-         .first = mm * z.minCoeff() - room,
-         .last = mm * z.maxCoeff() + room};
+  const double length = per_mm() * (z.maxCoeff() - z.minCoeff()), room = 0.03 * length;
+  p.x = {.title = shown_heading("position along the shaft", "mm"),
+         .first = per_mm() * z.minCoeff() - room,
+         .last = per_mm() * z.maxCoeff() + room};
   const double largest = line.values.cwiseAbs().maxCoeff();
+  const ShownUnit moment = shown_unit("N.m");
   const DisplayUnit unit =
-      line.si_unit == "N.m" ? DisplayUnit{"N·m", 1.0} : unit_for(largest, line.si_unit);
+      line.si_unit == "N.m"
+          ? DisplayUnit{moment.name == "N.m" ? "N·m" : moment.name, 1.0 / moment.size}
+          : unit_for(largest, line.si_unit);
   p.y.title = with_unit(line.what, unit);
   for (const Plane& plane : planes) {
     const Vec values = line.values.col(plane.column);
@@ -67,18 +83,20 @@ Panel panel_of(const Vec& z, const Line& line, bool is_filled) {
             .paint = plane.paint};
     c.dash = plane.dash;
     c.width = 1.8;
-    c.x = scaled(numbers(z), mm);
-    c.y = scaled(numbers(values), unit.factor);
-    if (is_filled && plane.column == 1) {
+    for (const auto& [first, end] : shafts_along(z)) {
       Curve under{.paint = plane.paint, .has_line = false};
       under.fill = 0.13;
-      under.x = c.x;
-      under.y = c.y;
-      under.x.insert(under.x.begin(), c.x.front());
-      under.y.insert(under.y.begin(), 0.0);
-      under.x.push_back(c.x.back());
-      under.y.push_back(0.0);
-      p.curves.push_back(std::move(under));
+      const auto add = [&](Curve& to, double x, double y) {
+        to.x.push_back(x);
+        to.y.push_back(y);
+      };
+      if (first > 0) add(c, not_set, not_set);
+      add(under, per_mm() * z(first), 0.0);
+      for (Eigen::Index i = first; i < end; ++i) {
+        for (Curve* to : {&c, &under}) add(*to, per_mm() * z(i), unit.factor * values(i));
+      }
+      add(under, per_mm() * z(end - 1), 0.0);
+      if (is_filled && plane.column == 1) p.curves.push_back(std::move(under));
     }
     p.curves.push_back(std::move(c));
   }
@@ -128,9 +146,9 @@ std::vector<Support> supports_of(const ResultView& result) {
 void add_reaction(Panel& p, const ResultView& result, const Support& support,
                   const DisplayUnit& unit, double height) {
   if (!result.assembler || !support.at) return;
-  const Point at = result.assembler->point(*support.at);
-  if (at.kind != Point::Kind::node) return;
-  const double z = mm * result.assembler->mesh().z[static_cast<std::size_t>(at.index)];
+  const auto at = result.assembler->mesh().position_of(result.assembler->point(*support.at));
+  if (!at) return;
+  const double z = per_mm() * *at;
   const double reaction = -unit.factor * support.load(1);
   Label l{z, height,
           fmt::format("{} {:.4g} {}", reaction < 0.0 ? "↓" : "↑", std::abs(reaction), unit.name)};
@@ -170,6 +188,29 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
   }
 }
 
+/// Nominal stresses along the shafts.
+Panel stress_panel(const BendingLine& line, const FigureAxis& along) {
+  const ShownUnit unit = shown_unit("MPa");
+  Panel p;
+  p.x = along;
+  p.y.title = shown_heading("nominal stress", "MPa");
+  p.y.first = 0.0;
+  for (const auto& [name, values, number] :
+       {std::tuple{"bending", &line.bending_stress, 1}, {"shear", &line.shear_stress, 4}}) {
+    Curve c{.name = name, .paint = series_paint(static_cast<std::size_t>(number))};
+    c.width = 1.6;
+    for (const auto& [first, end] : shafts_along(line.z)) {
+      if (first > 0) c.x.push_back(not_set), c.y.push_back(not_set);
+      for (Eigen::Index i = first; i < end; ++i) {
+        c.x.push_back(per_mm() * line.z(i));
+        c.y.push_back((*values)(i) / unit.size);
+      }
+    }
+    p.curves.push_back(std::move(c));
+  }
+  return p;
+}
+
 /// What bends the rotor of a result.
 std::string loads_of(const ResultView& result) {
   if (!result.model || !has_constant_force(result.model->structure)) return "gravity";
@@ -189,11 +230,17 @@ std::vector<Figure> static_figures(const ResultView& result) {
                loads_of(result)),
            .height = 640.0};
   for (const Line& line : lines) f.panels.push_back(panel_of(z, line, &line != lines.data()));
+  if (of.bending_stress.size() == z.size()) {
+    f.panels.push_back(stress_panel(of, f.panels.front().x));
+    f.height += 130.0;
+    f.notes.push_back("The stress is nominal: steps and keyways raise it.");
+  }
   f.panels.front().share = 1.3;
   add_rotor_and_reactions(f.panels.front(), result, f.table);
-  f.notes = {
+  f.notes.insert(
+      f.notes.begin(),
       "Loads are forces of the rotor on its bearings, arrows those of the bearings on the "
-      "rotor; y points up. A shaft that sags between bearings has a moment above zero."};
+      "rotor; y points up. A shaft that sags between bearings has a moment above zero.");
   return {f};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libio/drawing/near_range.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/sweep_view.hpp"
@@ -38,14 +39,17 @@ void add_lines(Panel& p, const ShownAxis& axis, const std::vector<std::string>& 
 
 /// Something that is seen once a revolution: a displacement, a reading.
 struct Sections {
-  std::string title;
-  /// As it is shown; NaN where there is none.
-  std::function<double(std::size_t point, std::size_t section)> at;
+  std::string what;
+  DisplayUnit unit;
+  bool keeps_unit;                                                   ///< that of a probe
+  std::function<double(std::size_t point, std::size_t section)> at;  ///< [m]; NaN: there is none
 };
 
-Panel section_panel(const SweepView& v, const Sections& of) {
+/// @param near  motions that leave it are left out
+Panel section_panel(const SweepView& v, const Sections& of,
+                    const std::optional<Extent>& near = std::nullopt) {
   const std::size_t values = v.axis.values.size();
-  Panel p = panel_along(v.axis, of.title);
+  Panel p = panel_along(v.axis, with_unit(of.what, of.unit));
   p.share = 2.4;
   for (std::size_t w = 0; w < v.ways.size(); ++w) {
     Curve c{
@@ -58,8 +62,13 @@ Panel section_panel(const SweepView& v, const Sections& of) {
       const std::string name(motion.kind ? name_of(*motion.kind) : "failed");
       const std::string text =
           motion.period > 0 ? fmt::format("{}, period {}", name, motion.period) : name;
-      for (std::size_t j = 0; j < v.sections; ++j) {
-        const double y = of.at(point, j);
+      const auto is_far = [&](std::size_t j) {
+        return near && (of.at(point, j) < near->low || of.at(point, j) > near->high);
+      };
+      bool is_near = true;
+      for (std::size_t j = 0; j < v.sections; ++j) is_near = is_near && !is_far(j);
+      for (std::size_t j = 0; j < v.sections && is_near; ++j) {
+        const double y = of.unit.factor * of.at(point, j);
         if (!std::isfinite(y)) continue;
         c.x.push_back(v.axis.values[i]);
         c.y.push_back(y);
@@ -69,6 +78,48 @@ Panel section_panel(const SweepView& v, const Sections& of) {
     p.curves.push_back(std::move(c));
   }
   return p;
+}
+
+/// How far each motion goes [m].
+std::vector<Extent> extents_of(const SweepView& v, const Sections& of) {
+  std::vector<Extent> extents;
+  for (std::size_t i = 0; i < v.points.size(); ++i) {
+    Extent e{INFINITY, -INFINITY};
+    for (std::size_t j = 0; j < v.sections; ++j) {
+      const double x = of.at(i, j);
+      if (std::isfinite(x)) e.low = std::min(e.low, x), e.high = std::max(e.high, x);
+    }
+    if (e.low <= e.high) extents.push_back(e);
+  }
+  return extents;
+}
+
+/// Adds the sections; where some motions are far away, first those that are near each other.
+void add_sections(const SweepView& v, const Sections& of, Figure& f) {
+  Panel all = section_panel(v, of);
+  const std::vector<Extent> extents = extents_of(v, of);
+  if (const auto near = near_range(extents)) {
+    Sections enlarged = of;
+    const double reach = std::max(std::abs(near->low), std::abs(near->high));
+    if (!of.keeps_unit) enlarged.unit = unit_for(reach, "m");
+    Panel p = section_panel(v, enlarged, near);
+    const double factor = enlarged.unit.factor;
+    const Axis range = axis_around({factor * near->low, factor * near->high}, Scale::linear);
+    p.y.first = range.first, p.y.last = range.last;
+    p.title = "without what is far away";
+    all.title = "all";
+    all.share = 1.2;
+    const auto far = std::count_if(extents.begin(), extents.end(), [&](const Extent& e) {
+      return e.low < near->low || e.high > near->high;
+    });
+    f.notes.push_back(fmt::format(
+        "{} of {} motions are far away from the others: the first panel is enlarged, the second "
+        "shows all.",
+        far, extents.size()));
+    f.height += 200.0;
+    f.panels.push_back(std::move(p));
+  }
+  f.panels.push_back(std::move(all));
 }
 
 Panel exponent_panel(const SweepView& v) {
@@ -133,6 +184,41 @@ Panel radius_panel(const SweepView& v, std::size_t station, const DisplayUnit& u
   return r;
 }
 
+/// Largest forces on supports along the values, a panel each; nothing where they are not known.
+std::optional<Figure> supports_figure(const ResultView& result, const SweepView& v) {
+  constexpr std::size_t most = 6;
+  if (!result.file.has(point_dataset<SweepResult>("support_largest"))) return std::nullopt;
+  const std::vector<std::string> names =
+      result.file.strings(dataset_of<SweepResult>(&SweepResult::supports));
+  const auto force = [&](std::size_t i, std::size_t support) {
+    const auto at = static_cast<Eigen::Index>(support);
+    const Vec& known = v.point(i) ? v.point(i)->portrait.support_largest : Vec();
+    return at < known.size() ? known(at) : std::nan("");
+  };
+  std::vector<std::pair<double, std::size_t>> by_size;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < v.points.size(); ++i) largest = std::fmax(largest, force(i, k));
+    by_size.emplace_back(-largest, k);
+  }
+  std::sort(by_size.begin(), by_size.end());
+  Figure f{.variant = "forces on supports"};
+  f.subtitle = fmt::format("Largest forces on supports along {}", v.axis.path);
+  for (const auto& [size, k] : by_size) {
+    if (f.panels.size() == most) break;
+    const DisplayUnit newton = unit_for(-size, "N");
+    Panel p = panel_along(v.axis, with_unit(names[k], newton));
+    p.y.first = 0.0;
+    add_lines(p, v.axis, v.ways, [&, k = k](std::size_t i) { return newton.factor * force(i, k); });
+    f.panels.push_back(std::move(p));
+  }
+  if (names.size() > most) {
+    f.notes.push_back(fmt::format("The {} of {} supports that carry most.", most, names.size()));
+  }
+  f.height = 180.0 + 140.0 * static_cast<double>(f.panels.size());
+  return f;
+}
+
 Panel size_panel(const SweepView& v, std::size_t probe, const DisplayUnit& unit) {
   Panel p = panel_along(v.axis, with_unit("peak to peak", unit));
   p.y.first = 0.0;
@@ -151,9 +237,11 @@ Figure along_probe(const ResultView& result, const SweepView& v, std::size_t pro
   const DisplayUnit unit = unit_of(label);
   Figure f{.variant = probe_name(label), .probes = {label.name}};
   f.subtitle = fmt::format("{}: bifurcation diagram along {}", f.variant, v.axis.path);
-  f.panels.push_back(section_panel(
-      v, {with_unit("reading once a revolution", unit),
-          [&](std::size_t i, std::size_t j) { return unit.factor * v.reading(i, probe, j); }}));
+  add_sections(v,
+               {"reading once a revolution", unit, true,
+                [&](std::size_t i, std::size_t j) { return v.reading(i, probe, j); }},
+               f);
+  const double enlarged = 60.0 * static_cast<double>(f.panels.size() - 1);
   if (result.file.has(point_dataset<SweepResult>("probe_peak_to_peak"))) {
     f.panels.push_back(size_panel(v, probe, unit));
   }
@@ -162,7 +250,7 @@ Figure along_probe(const ResultView& result, const SweepView& v, std::size_t pro
     f.panels.push_back(duty_panel(v));
     f.panels.push_back(force_panel(v));
   }
-  f.height = 280.0 + 140.0 * static_cast<double>(f.panels.size());
+  f.height = 280.0 + enlarged + 140.0 * static_cast<double>(f.panels.size());
   return f;
 }
 
@@ -177,9 +265,10 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
     Figure f{.variant = v.stations[s], .height = has_contacts ? 820.0 : 560.0};
     f.subtitle = fmt::format("{}: bifurcation diagram along {}", v.stations[s], v.axis.path);
     const DisplayUnit unit = v.unit(s);
-    const Sections x{with_unit("x once a revolution", unit),
-                     [&](std::size_t i, std::size_t j) { return unit.factor * v.x(i, s, j); }};
-    f.panels = {section_panel(v, x), exponent_panel(v)};
+    const Sections x{"x once a revolution", unit, false,
+                     [&](std::size_t i, std::size_t j) { return v.x(i, s, j); }};
+    add_sections(v, x, f);
+    f.panels.push_back(exponent_panel(v));
     if (has_contacts) {
       f.panels.push_back(duty_panel(v));
       f.panels.push_back(force_panel(v));
@@ -188,6 +277,7 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
     }
     figures.push_back(std::move(f));
   }
+  if (auto supports = supports_figure(result, v)) figures.push_back(std::move(*supports));
   auto force = has_contacts ? relative_force_panel(result, v) : std::nullopt;
   if (!force) return figures;
   Figure f{.variant = "force over unbalance", .height = 560.0};

@@ -15,18 +15,8 @@ namespace {
 
 using namespace figures;
 
-constexpr double seen_revolutions = 8.0;  ///< at first, of a time history
 constexpr double drawn_orbits = 48.0;     ///< revolutions, of an orbit
 constexpr double all_sections = 1e9;      ///< revolutions, of a Poincare section
-
-/// Ranges of x that show the last revolutions, or what was asked for.
-void show(const Motion& m, Panel& p) {
-  const MotionSamples shown = m.shown(seen_revolutions);
-  p.x.first = m.time(shown.first);
-  p.x.last = m.time(shown.last);
-  p.x.title = "time [s]";
-  p.cursor = "time";
-}
 
 std::string revolution_text(const Motion& m, Eigen::Index i) {
   return fmt::format("{:.2f} revolutions before the end",
@@ -64,7 +54,7 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
     const DisplayUnit unit = unit_for(largest_displacement(s), "m");
     for (const auto& [name, values] : {std::pair{"x", &s.x}, std::pair{"y", &s.y}}) {
       Panel p;
-      show(m, p);
+      m.show_over_time(p, seen_revolutions);
       p.y.title = with_unit(name, unit);
       Curve c{.name = name[0] == 'x' ? "x" : "y",
               .paint = name[0] == 'x' ? Paint::series : series_paint(2),
@@ -77,12 +67,12 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
     const int contact = contact_at(result, m.stations[i]);
     if (contact >= 0 && m.record.normal.size() > 0) {
       Panel p;
-      show(m, p);
+      m.show_over_time(p, seen_revolutions);
       add_forces(m, contact, p, "contact force");
       f.panels.push_back(std::move(p));
       f.height = 620.0;
     }
-    f.notes = m.notes(seen_revolutions);
+    f.notes = m.time_notes(seen_revolutions);
     figures.push_back(std::move(f));
   }
   return figures;
@@ -160,7 +150,7 @@ std::optional<Curve> clearance_curve(const Contact& contact, double size, double
   const AnyGeometry geometry = geometry_of(contact);
   const auto direction = direction_of(geometry);
   const bool is_centered = contact.offset.norm() == 0.0 && !direction && !is_wall(geometry);
-  if (!(contact.clearance > 0.0 && contact.clearance < 20.0 * size)) return std::nullopt;
+  if (!(contact.clearance > 0.0 && contact.clearance < 6.0 * size)) return std::nullopt;
   if (is_rotating && !(is_fixed && is_centered)) return std::nullopt;
   const std::string name = is_fixed ? "clearance" : "clearance, stator at rest";
   const double distance = factor * contact.clearance;
@@ -297,7 +287,7 @@ std::optional<Panel> blade_panel(const ResultView& result, const Motion& m, std:
   const DisplayUnit unit = unit_for(deflection.cwiseAbs().maxCoeff(), "m");
   const MotionSamples drawn = m.drawn(seen_revolutions);
   Panel p;
-  show(m, p);
+  m.show_over_time(p, seen_revolutions);
   p.title = of.name + ", blade in touch";
   p.y.title = with_unit("deflection of its tip", unit);
   Curve c{.name = "tip of the blade", .paint = series_paint(4), .x = numbers(m.time, drawn)};
@@ -314,7 +304,7 @@ std::vector<Figure> contact_force_figures(const ResultView& result) {
   f.subtitle = fmt::format("Contact forces{}", at_speed(result));
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Panel p;
-    show(m, p);
+    m.show_over_time(p, seen_revolutions);
     p.title = contacts[i].name;
     add_forces(m, static_cast<Eigen::Index>(i), p, "");
     if (p.curves[0].y.empty() || largest_of(p.curves[0].y) == 0.0) p.title += " (never touches)";
@@ -322,7 +312,7 @@ std::vector<Figure> contact_force_figures(const ResultView& result) {
     if (auto bent = blade_panel(result, m, i)) f.panels.push_back(std::move(*bent));
   }
   f.height = 90.0 + 190.0 * static_cast<double>(f.panels.size());
-  f.notes = m.notes(seen_revolutions);
+  f.notes = m.time_notes(seen_revolutions);
   return f.panels.empty() ? std::vector<Figure>{} : std::vector<Figure>{f};
 }
 

@@ -10,6 +10,7 @@
 #include "libio/figures/bode_curves.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -22,7 +23,7 @@ using namespace figures;
 struct Response {
   explicit Response(const ResultView& result) : study(result_of<UnbalanceStudy>(result)) {
     const bool has_curve = !study.curve_speeds.empty();
-    speed = scaled(has_curve ? study.curve_speeds : study.speeds, 1.0 / rpm);
+    speed = scaled(has_curve ? study.curve_speeds : study.speeds, 1.0 / speed_unit().size);
     const auto count = std::ssize(study.stations), points = std::ssize(speed);
     x.resize(count, points);
     y.resize(count, points);
@@ -41,7 +42,7 @@ struct Response {
     }
   }
   const UnbalanceStudy& study;
-  std::vector<double> speed;  ///< [rpm]
+  std::vector<double> speed;  ///< [speed_unit()]
   std::vector<std::string> stations;
   CMat x, y;
   Mat major;  ///< semi-axes
@@ -54,32 +55,35 @@ bool has_peaks(const ResultView& result) {
   return result.file.has(dataset_of<UnbalanceStudy>(&UnbalanceStudy::peaks));
 }
 
-/// Peaks of the largest orbit [rpm]; of a result that does not hold them, as its speeds show them.
+/// Peaks of the largest orbit [speed_unit()]; of a result that does not hold them, as its speeds
+/// show them.
 std::vector<ResponsePeak> peaks_in(const ResultView& result, const Response& r, const CMat& a) {
   if (!has_peaks(result)) return response_peaks(r.speed, a.cwiseAbs());
   std::vector<ResponsePeak> peaks;
   for (const StationPeak& p : r.study.peaks) {
-    peaks.push_back({p.row, p.speed / rpm, p.amplitude, p.below / rpm, p.above / rpm});
+    peaks.push_back({p.row, p.speed / speed_unit().size, p.amplitude, p.below / speed_unit().size,
+                     p.above / speed_unit().size});
   }
   return peaks;
 }
 
-/// Peaks [rpm] with amplification factors, and their margins to the operating speed.
+/// Peaks [speed_unit()] with amplification factors, and their margins to the operating speeds.
 /// @param place  what the names of their rows are, for the heading
 FigureTable table_of_peaks(const ResultView& result, const std::vector<ResponsePeak>& peaks,
                            const std::string& place, const std::vector<std::string>& names,
                            const DisplayUnit& unit) {
-  FigureTable t{.header = {"peak [rpm]", place, with_unit("p-p", unit), "amplification", "margin",
-                           "required"}};
-  const double operation = speed_of(result) / rpm;
+  FigureTable t{.header = {shown_heading("peak", "rpm"), place, with_unit("p-p", unit),
+                           "amplification", "margin", "required"}};
   for (const ResponsePeak& peak : peaks) {
     const double factor = peak.amplification();
-    std::vector<std::string> row{fmt::format("{:.0f}", peak.speed),
-                                 names[static_cast<std::size_t>(peak.row)],
+    std::vector<std::string> row{speed_label(peak.speed), names[static_cast<std::size_t>(peak.row)],
                                  fmt::format("{:.4g}", 2.0 * unit.factor * peak.amplitude),
                                  std::isfinite(factor) ? fmt::format("{:.3g}", factor) : "–"};
-    if (operation > 0.0) {
-      const SeparationMargin m = separation_margin(peak, operation);
+    ResponsePeak si = peak;
+    for (double* speed : {&si.speed, &si.below, &si.above}) *speed *= speed_unit().size;
+    const auto margin = result.model ? machine_margin(*result.model, si) : std::nullopt;
+    if (margin) {
+      const SeparationMargin& m = *margin;
       row.push_back(fmt::format("{:.1f} % {}", 100.0 * m.actual, m.is_below ? "below" : "above"));
       row.push_back(!std::isfinite(m.required) ? "–"
                     : m.required == 0.0        ? "none"
@@ -150,8 +154,8 @@ std::vector<Figure> bode_of_probes(const ResultView& result, const Response& r) 
       const ProbeResponse& probe = r.study.probes[static_cast<std::size_t>(p.row)];
       const auto at = std::find(shown.names.begin(), shown.names.end(), probe_name(probe));
       if (at == shown.names.end()) continue;  // of another unit
-      peaks.push_back(
-          {at - shown.names.begin(), p.speed / rpm, p.amplitude, p.below / rpm, p.above / rpm});
+      peaks.push_back({at - shown.names.begin(), p.speed / speed_unit().size, p.amplitude,
+                       p.below / speed_unit().size, p.above / speed_unit().size});
     }
     f.table = table_of_peaks(result, peaks, "probe", shown.names, shown.unit);
     figures.push_back(std::move(f));
@@ -173,11 +177,13 @@ std::vector<Figure> bode_figures(const ResultView& result) {
 
 std::vector<Figure> polar_figures(const ResultView& result) {
   const Response r(result);
+  const double operating = speed_of(result) / speed_unit().size;
   std::vector<Figure> figures;
   for (const BodeCurves& shown : probe_curves(result, r)) {
     for (std::size_t i = 0; i < shown.names.size(); ++i) {
       const CVec a = shown.a.row(static_cast<Eigen::Index>(i)).transpose();
-      figures.push_back(polar_figure(r.speed, shown.names[i], a, shown.unit));
+      figures.push_back(polar_figure(
+          r.speed, {shown.names[i], a, shown.unit, shown.probes[i], shown.angles[i], operating}));
       figures.back().probes = {shown.probes[i]};
       figures.back().subtitle =
           shown.names[i] + ": complex amplitude, peak to peak, speeds along the loop";
@@ -191,7 +197,8 @@ std::vector<Figure> polar_figures(const ResultView& result) {
   for (const Eigen::Index i : stations) {
     const std::string name = r.stations[static_cast<std::size_t>(i)];
     const CVec a = r.x.row(i).transpose();
-    figures.push_back(polar_figure(r.speed, name, a, unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m")));
+    const DisplayUnit unit = unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m");
+    figures.push_back(polar_figure(r.speed, {name, a, unit, "x", 0.0, operating}));
     figures.back().subtitle =
         name + ": complex amplitude along x, peak to peak, speeds along the loop";
     constexpr std::size_t most = 8;
@@ -205,39 +212,53 @@ std::vector<Figure> deflection_figures(const ResultView& result) {
   const Response r(result);
   const Mat& major = r.major;
   const std::vector<double> z = numbers(result_of<PointNames>(result).z);
-  // stations along the shaft
-  std::vector<std::pair<double, Eigen::Index>> places;
+  // stations along the shafts
+  struct Place {
+    int shaft;
+    double z;
+    Eigen::Index row;
+  };
+  std::vector<Place> places;
   for (std::size_t i = 0; i < r.stations.size(); ++i) {
     int node = 0;
     const std::string& s = r.stations[i];
     std::from_chars(s.data(), s.data() + s.size(), node);
     if (node < 1 || static_cast<std::size_t>(node) > z.size()) continue;
-    places.emplace_back(z[static_cast<std::size_t>(node - 1)], static_cast<Eigen::Index>(i));
+    const auto at = static_cast<std::size_t>(node - 1);
+    const int shaft = result.assembler ? result.assembler->mesh().shaft_of.at(at) : 0;
+    places.push_back({shaft, z[at], static_cast<Eigen::Index>(i)});
   }
-  std::sort(places.begin(), places.end());
+  std::ranges::sort(places, {}, [](const Place& p) { return std::pair(p.shaft, p.z); });
   if (places.size() < 3) return {};
   const Vec largest = major.cwiseAbs().colwise().maxCoeff().transpose();
   const std::vector<Eigen::Index> peaks = deflection_peaks(major.cwiseAbs());
   Figure f{.height = 400.0};
   f.subtitle = "Deflected shapes at the peaks of the response";
   Panel p;
-  p.x.title = "position along the shaft [mm]";
+  p.x.title = shown_heading("position along the shaft", "mm");
   double top = 0.0;
   for (const Eigen::Index k : peaks) top = std::max(top, largest(k));
   const DisplayUnit unit = unit_for(2.0 * top, "m");
   p.y.title = with_unit("major axis p-p, signed", unit);
   std::size_t number = 0;
   for (const Eigen::Index k : peaks) {
-    Curve c{.name = fmt::format("{:.0f} rpm", r.speed[static_cast<std::size_t>(k)]),
-            .paint = series_paint(number++)};
+    Curve c{
+        .name = shown_value(r.speed[static_cast<std::size_t>(k)] * speed_unit().size, "rpm", ".0f"),
+        .paint = series_paint(number++)};
     c.has_marker = true;
     c.marker = static_cast<Marker>(number % markers);
     c.size = 6.0;
     Eigen::Index reference = 0;
     major.col(k).cwiseAbs().maxCoeff(&reference);
-    for (const auto& [at, i] : places) {
-      const double turned = std::cos(std::arg(r.x(i, k)) - std::arg(r.x(reference, k)));
-      c.x.push_back(1e3 * at);
+    int last = 0;
+    for (const auto& [shaft, at, i] : places) {
+      if (shaft != last) c.x.push_back(not_set), c.y.push_back(not_set);
+      last = shaft;
+      // with the place that moves most or against it, as far as both ellipses go together
+      const double turned =
+          (std::conj(r.x(reference, k)) * r.x(i, k) + std::conj(r.y(reference, k)) * r.y(i, k))
+              .real();
+      c.x.push_back(per_mm() * at);
       c.y.push_back(2.0 * unit.factor * std::copysign(std::abs(major(i, k)), turned));
     }
     p.curves.push_back(c);

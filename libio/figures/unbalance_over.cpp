@@ -8,6 +8,7 @@
 #include "libfe/assembly/excitations.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -22,7 +23,7 @@ class SizePanel {
   SizePanel(const ShownAxis& axis, const std::string& title, const DisplayUnit& unit)
       : values_(axis.values), unit_(unit) {
     panel_.x = {.title = axis.title, .first = axis.values.front(), .last = axis.values.back()};
-    panel_.y = {.title = with_unit(title, unit), .first = 0.0};
+    panel_.y = {.title = with_unit(title, unit), .scale = Scale::logarithmic};
     panel_.cursor = "parameter";
   }
 
@@ -58,19 +59,20 @@ class SizePanel {
 Panel peaks_panel(const ResultView& result, const UnbalanceOver& found, const ShownAxis& axis) {
   Panel p;
   p.x = {.title = axis.title, .first = axis.values.front(), .last = axis.values.back()};
-  p.y.title = "peaks [rpm]";
+  p.y.title = shown_heading("peaks", "rpm");
   p.cursor = "parameter";
   Curve c{.name = "peak", .paint = Paint::ink, .has_line = false};
   c.has_marker = true;
   c.size = 4.0;
   for (const UnbalanceOverPeak& peak : found.peaks) {
     c.x.push_back(peak.value / axis.factor);
-    c.y.push_back(peak.speed / rpm);
-    c.hover.push_back(fmt::format("{:.1f} rpm at {:.5g}: amplification {:.4g}", peak.speed / rpm,
-                                  c.x.back(), peak.amplification()));
+    c.y.push_back(peak.speed / speed_unit().size);
+    c.hover.push_back(fmt::format("{} at {:.5g}: amplification {:.4g}",
+                                  shown_value(peak.speed, "rpm", ".1f"), c.x.back(),
+                                  peak.amplification()));
   }
   p.curves.push_back(std::move(c));
-  const double speed = speed_of(result) / rpm;
+  const double speed = speed_of(result) / speed_unit().size;
   if (std::isfinite(speed) && speed > 0.0) {
     p.rules.push_back({Rule::Kind::horizontal, speed, "operating", Paint::gray, Dash::dotted});
   }

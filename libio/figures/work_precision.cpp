@@ -8,6 +8,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -25,7 +26,7 @@ WorkPrecision work_precision_of(const WorkPrecisionStudy& study, const Model& mo
     return std::vector<double>(numbers.begin(), numbers.end());
   };
   return {.title = model.title.empty() ? "Speed against error" : model.title,
-          .subtitle = fmt::format("{:.6g} rpm, one core, {}", model.speed / rpm,
+          .subtitle = fmt::format("{}, one core, {}", shown_value(model.speed, "rpm", ".6g"),
                                   tolerance_range(options.tolerances)),
           .methods = options.methods,
           .tolerances = options.tolerances,

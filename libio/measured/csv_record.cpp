@@ -203,6 +203,10 @@ RawRecord read_csv_record(const std::filesystem::path& path) {
   return read_csv_text(*text, file);
 }
 
+bool has_csv_numbers(const std::string& text) {
+  return body_of(csv_lines(text)).has_value();
+}
+
 RawRecord read_csv_text(const std::string& text, const std::string& file) {
   std::vector<CsvLine> lines = csv_lines(text);
   if (has_scope_columns(lines)) return scope_record(lines, file);

@@ -51,7 +51,7 @@ void take_speed(Model& model, ProbeReadings& readings, bool is_given) {
   }
   if (readings.clock->variation() > uneven_speed) {
     readings.notes.push_back(fmt::format(
-        "the speed changes by {:.2g} % in the record: lines of the spectrum are smeared, "
+        "the speed changes by {:.3g} % in the record: lines of the spectrum are smeared, "
         "and modes are those at its mean",
         100.0 * readings.clock->variation()));
   }
@@ -164,8 +164,12 @@ Measurement read_measurement(Model model, const RecordSource& source) {
   return measurement_of(std::move(model), {source, read_record(source.file, source.rate)});
 }
 
+bool is_list_of_records(const RecordSource& source) {
+  return std::filesystem::path(source.file).extension() == ".toml";
+}
+
 std::vector<SourcedRecord> read_records(const RecordSource& source) {
-  const bool is_list = std::filesystem::path(source.file).extension() == ".toml";
+  const bool is_list = is_list_of_records(source);
   std::vector<SourcedRecord> records;
   for (const RecordSource& one : is_list ? read_list(source.file, source) : std::vector{source}) {
     records.push_back({one, read_record(one.file, one.rate)});

@@ -31,6 +31,9 @@ struct Measurement {
   ProbeReadings readings;
 };
 
+/// Whether the file is a list of records.
+bool is_list_of_records(const RecordSource& source);
+
 /// What the probes read in a record. The speed is that of the key-phasor, or else the model's.
 ///
 /// @param model  with what the source sets

@@ -5,10 +5,14 @@
 #include <algorithm>
 
 #include "libio/measured/channel_unit.hpp"
+#include "libio/measured/probe_table.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/file_text.hpp"
 #include "libio/model/model_builder.hpp"
 #include "libio/model/read_fields.hpp"
+#include "libio/text/encoding.hpp"
+#include "libio/text/table_file.hpp"
+#include "libio/text/workbook.hpp"
 
 namespace whirl::inline io {
 
@@ -112,9 +116,7 @@ Model model_with(const ConfigNode& probes, const Model& model) {
 
 }  // namespace
 
-MeasurementSetup parse_probe_file(const std::string& text, const std::string& name,
-                                  const Model& model) {
-  ConfigNode root = parse_toml(text, name);
+MeasurementSetup probes_in(ConfigNode root, const Model& model) {
   std::vector<Problem> problems;
   MeasurementSetup setup;
   std::optional<FullScale> full_scale;
@@ -151,8 +153,29 @@ MeasurementSetup parse_probe_file(const std::string& text, const std::string& na
   return setup;
 }
 
+MeasurementSetup parse_probe_file(const std::string& text, const std::string& name,
+                                  const Model& model) {
+  return probes_in(parse_toml(text, name), model);
+}
+
 MeasurementSetup read_probe_file(const std::filesystem::path& path, const Model& model) {
-  return parse_probe_file(file_text(path), path.string(), model);
+  // a table has no [[probe]], and a workbook is no text
+  const std::string name = sheet_name(path.string()).file;
+  const std::string ending = lower_case(std::filesystem::path(name).extension().string());
+  static constexpr std::string_view of_tables[] = {".csv", ".txt",  ".tsv",
+                                                   ".dat", ".xlsx", ".xlsm"};
+  if (std::ranges::find(of_tables, ending) == std::end(of_tables)) {
+    return parse_probe_file(file_text(path), path.string(), model);
+  }
+  const auto table = table_file("", path.string(), FileKind::stream, probe_columns_named_in);
+  if (!table) throw ModelError({path.string()}, "", table.problem);
+  try {
+    return probes_in(probe_table(table->text, table->name), model);
+  } catch (const ModelError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) problem.where = with_cell_name(problem.where);
+    throw ModelError(std::move(problems));
+  }
 }
 
 MeasurementSetup model_probes(const Model& model) {

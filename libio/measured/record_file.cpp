@@ -8,6 +8,7 @@
 #include "libio/measured/record_formats.hpp"
 #include "libio/text/encoding.hpp"
 #include "libio/text/file_bytes.hpp"
+#include "libio/text/workbook.hpp"
 
 namespace whirl::inline io {
 
@@ -21,7 +22,7 @@ struct RecordFormat {
   void (*write)(const fs::path&, const MeasuredRecord&, Replaces);  ///< nothing: is read only
 };
 
-constexpr std::array<RecordFormat, 8> record_formats{{
+constexpr std::array<RecordFormat, 9> record_formats{{
     {" .csv .txt .tsv .dat .asc ", read_csv_record, write_csv_record},
     {" .wav ", read_wav_record, write_wav_record},
     {" .mat ", read_matlab_record, write_matlab_record},
@@ -30,17 +31,19 @@ constexpr std::array<RecordFormat, 8> record_formats{{
     {" .h5 .hdf5 ", read_hdf5_record, write_hdf5_record},
     {" .lvm ", read_lvm_record, nullptr},
     {" .tdms ", read_tdms_record, nullptr},
+    {" .xlsx .xlsm ", read_workbook_record, nullptr},
 }};
 
 const RecordFormat& format_of(const fs::path& path) {
-  const std::string ending = lower_case(path.extension().string());
+  const std::string ending =
+      lower_case(fs::path(sheet_name(path.string()).file).extension().string());
   for (const RecordFormat& format : record_formats) {
     if (ending.empty()) break;
     if (format.endings.find(" " + ending + " ") != std::string_view::npos) return format;
   }
   throw ModelError({path.string()}, "",
                    "expected a record of a measurement, whose ending says its format: .csv .txt "
-                   ".tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5, .lvm, .tdms");
+                   ".tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5, .lvm, .tdms, .xlsx .xlsm");
 }
 
 const RecordFormat& written_format_of(const fs::path& path) {

@@ -13,6 +13,11 @@ RawRecord read_csv_record(const std::filesystem::path& path);
 /// The same of a text.
 /// @param file  for messages
 RawRecord read_csv_text(const std::string& text, const std::string& file);
+/// Whether a text has two lines of numbers one after the other.
+bool has_csv_numbers(const std::string& text);
+/// A sheet of a workbook (.xlsx), which stands behind the file in the path, as in
+/// "rig.xlsx#Run 2!A3:F4000", or is the only one that has lines of numbers.
+RawRecord read_workbook_record(const std::filesystem::path& path);
 RawRecord read_lvm_record(const std::filesystem::path& path);
 RawRecord read_tdms_record(const std::filesystem::path& path);
 RawRecord read_wav_record(const std::filesystem::path& path);

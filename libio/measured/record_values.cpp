@@ -30,6 +30,12 @@ Parsed<double> parse_frequency(const std::string& text) {
   return parse_as(text, "rad/s");
 }
 
+Parsed<double> parse_length(const std::string& text) {
+  const auto length = parse_as(text, "m");
+  if (length && *length > 0.0) return length;
+  return Parsed<double>::failed("expected a length above zero, such as 120um");
+}
+
 Parsed<std::vector<double>> parse_orders(const std::string& text) {
   std::vector<double> orders;
   std::istringstream list(text);

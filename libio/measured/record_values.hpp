@@ -15,6 +15,9 @@ Parsed<double> parse_sampling_rate(const std::string& text);
 /// A frequency or a speed [rad/s].
 Parsed<double> parse_frequency(const std::string& text);
 
+/// A length above zero [m].
+Parsed<double> parse_length(const std::string& text);
+
 /// Multiples of the speed above zero, with commas between, each once.
 Parsed<std::vector<double>> parse_orders(const std::string& text);
 

@@ -46,6 +46,7 @@ BranchParameter parameter_of(const std::string& over, const std::string& at, int
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   range.low = *low;
   range.high = *high;
+  range.unit = axis->unit;
   range.first = values.front();
   if (!(range.low < range.high)) {
     throw wrong_option("over", over, "expected two values that differ");

@@ -61,6 +61,12 @@ constexpr Words others[] = {
     {"bearing", "brg bearings bearingname lager palier mancal cuscinetto cojinete"},
     {"seal", "seals sealname dichtung selo tenuta sello"},
     {"probe", "probes probename sensor sensors messstelle capteur sonda"},
+    {"channel", "ch chan channelno channelname kanal voie canal canale"},
+    {"gain",
+     "sensitivity scale scalefactor empfindlichkeit verstarkung sensibilite sensibilidade "
+     "sensibilita sensibilidad"},
+    {"full_scale", "fullscale fs range vollausschlag"},
+    {"unit", "units einheit unite unidade unita unidad"},
     {"name", "component part description label bezeichnung benennung designation descricao"},
     {"deflection", "bow"},
     {"angle", "phase"},

@@ -44,7 +44,10 @@ void read_cell(const NamedColumn& column, const Cell& cell, const NumberMarks& m
     return;
   }
   if (kind.is_text) {
-    row.texts[kind.name] = cell.text;
+    const auto number =
+        kind.keeps_unit ? plain_number(cell.text, marks) : Parsed<std::string>::failed("words");
+    const bool has_unit = number && !column.unit.empty();
+    row.texts[kind.name] = (number ? *number : cell.text) + (has_unit ? " " + column.unit : "");
     return;
   }
   const auto number = plain_number(cell.text, marks);

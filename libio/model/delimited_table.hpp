@@ -24,6 +24,8 @@ struct ColumnKind {
   bool must_be_filled = false;  ///< an empty cell is a problem
   /// Under another name it needs a unit: programs that write that name do not mean SI.
   bool others_need_unit = false;
+  /// Of words that are numbers with units of their own: a unit of the column stands behind each.
+  bool keeps_unit = false;
 };
 
 /// A line of a table. A cell that is empty or wrong is left out.

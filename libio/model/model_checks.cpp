@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libcontact/contact.hpp"
 #include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline io {
@@ -20,8 +21,11 @@ bool has_any_mass(const Structure& s) {
   const auto of_layer = [](const Layer& layer) {
     return layer.carries == Carries::stiffness ? 0.0 : layer.material.rho;
   };
-  return any(s.shaft, [](const Segment& segment) { return segment.material.rho; }) ||
-         any(s.layers, of_layer) || any(s.disks, [](const Disk& disk) { return disk.m; }) ||
+  const auto is_heavy = [&](const Structure::Shaft& shaft) {
+    return any(shaft.segments, [](const Segment& segment) { return segment.material.rho; });
+  };
+  return std::ranges::any_of(s.shafts(), is_heavy) || any(s.layers, of_layer) ||
+         any(s.disks, [](const Disk& disk) { return disk.m; }) ||
          any(s.bodies, [](const Body& body) { return std::max(body.m.x, body.m.y); });
 }
 
@@ -62,8 +66,31 @@ void set_radii(ModelReading& reading, const Mesh& mesh) {
                                   "radius of the contact for its slip velocity"});
       continue;
     }
-    contact.friction.radius =
-        0.5 * shaft_diameter(s, mesh, mesh.z[static_cast<std::size_t>(point.index)]);
+    contact.friction.radius = 0.5 * diameter_at(s, mesh, point.index);
+  }
+}
+
+/// Contacts of several shafts that are made for one: blades turn with the first shaft, and friction
+/// that always has the sense of the spin needs a rotor that turns faster than what it touches.
+void check_rotors(ModelReading& reading, const Mesh& mesh) {
+  const Structure& s = reading.model.structure;
+  if (s.rotors.empty()) return;
+  for (const Contact& c : reading.model.contacts) {
+    const double at = shaft_ratio(resolve(c.at, s, mesh), s, mesh);
+    const double against = spin_ratio(resolve(c.against, s, mesh), s, mesh);
+    const std::string key = "contact." + c.name;
+    const AnyGeometry geometry = geometry_of(c);
+    if (turns(geometry) && (at != 1.0 || against != 0.0)) {
+      reading.problems.push_back(
+          {c.where, key + ".law", "blades are those of the first shaft, and touch what stands"});
+    } else if ((c.friction.slip == Slip::forward || rubs_apart(geometry)) && !(at > against)) {
+      reading.problems.push_back(
+          {c.where, key,
+           fmt::format("its friction always has the sense of the spin, but the speed of what "
+                       "touches is {:g} and that of what it touches {:g} times that of the first "
+                       "shaft; expected the first of them to be larger",
+                       at, against)});
+    }
   }
 }
 
@@ -93,16 +120,32 @@ void check_movable(ModelReading& reading) {
 
 void check_places(ModelReading& reading) {
   const Structure& s = reading.model.structure;
-  if (reading.root.find("shaft") && s.shaft.empty())
-    return;  // it is no array of tables; that is said
+  const ConfigNode* segments = reading.root.find("shaft");
+  if (segments && segments->kind != ConfigNode::Kind::array) return;  // that is said
   if (s.shaft.empty() && s.bodies.empty() && reading.problems.empty()) {
     reading.problems.push_back(
-        {reading.root.where, "shaft", "missing: a model needs a [[shaft]] or a [[body]]"});
+        {reading.root.where, "shaft",
+         s.rotors.empty() ? "missing: a model needs a [[shaft]] or a [[body]]"
+                          : "all segments are of rotors: the first shaft, whose speed counts, is "
+                            "made of those without a rotor"});
   }
-  const bool has_shape = std::all_of(s.shaft.begin(), s.shaft.end(), [](const Segment& segment) {
+  const auto is_whole = [](const Segment& segment) {
     return segment.length > 0.0 && segment.left.outer > 0.0 && segment.right.outer > 0.0;
-  });
-  if (!has_shape) return;
+  };
+  for (const Rotor& rotor : s.rotors) {
+    const bool is_used = !rotor.shaft.empty() || std::ranges::any_of(s.bodies, [&](const Body& b) {
+      return b.rotor == rotor.name;
+    });
+    if (is_used) continue;
+    reading.doubts.push_back(
+        {rotor.where, "rotor." + rotor.name,
+         fmt::format("has no shaft: write rotor = \"{}\" in a [[shaft]], or in a [[body]] that "
+                     "spins",
+                     rotor.name)});
+  }
+  for (const Structure::Shaft& shaft : s.shafts()) {
+    if (!std::ranges::all_of(shaft.segments, is_whole)) return;
+  }
   Mesh mesh;
   try {
     mesh = make_mesh(s);
@@ -119,6 +162,7 @@ void check_places(ModelReading& reading) {
     return;
   }
   set_radii(reading, mesh);
+  check_rotors(reading, mesh);
   check_movable(reading);
 }
 

@@ -17,6 +17,7 @@
 #include "libfe/mesh/mesh.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
+#include "libio/model/size_doubts.hpp"
 #include "libio/text/delimited.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/units.hpp"
@@ -26,11 +27,6 @@ namespace whirl::inline io {
 
 namespace {
 
-// Beyond these a number was most likely meant in another unit. The longest shafts of machines, of
-// turbine sets coupled, are made of rotors of some 15 m; their diameters stay below 3 m.
-constexpr double longest = 30.0, thickest = 3.0;  ///< [m]
-constexpr double slimmest =
-    500.0;  ///< lengths of a shaft in its diameters; of line shafts some 100
 constexpr double same_diameter = 1e-6;  ///< relative: rounding of units
 
 /// What numbers of a key are like in machines. One without a unit that is not like this was most
@@ -160,45 +156,10 @@ void doubt_speed(const ConfigNode& root, const Model& model, std::vector<Problem
   doubts.push_back({speed ? speed->where : Where{}, "operation.speed", doubt});
 }
 
-std::string as_meters(double length) {
-  return fmt::format(
-      "{0:.4g} m; lengths without a unit are meters: did you mean {0:.4g} mm, or in?", length);
-}
-
-/// Shafts that are too long, too thick or too slim for machines.
-void doubt_sizes(const Structure& s, std::vector<Problem>& doubts) {
-  if (s.shaft.empty()) return;
-  const auto longer = [](const Segment& a, const Segment& b) { return a.length < b.length; };
-  const Segment& longest_one = *std::max_element(s.shaft.begin(), s.shaft.end(), longer);
-  const double length = s.length();
-  double largest = 0.0;
-  std::vector<Problem> found;
-  const auto look_at = [&](const auto& part, const char* what) {
-    const double outer = std::max(part.left.outer, part.right.outer);
-    largest = std::max(largest, outer);
-    if (outer <= thickest) return;
-    found.push_back({part.where, what, "the outer diameter is " + as_meters(outer)});
-  };
-  for (const Segment& segment : s.shaft) look_at(segment, "shaft");
-  for (const Layer& layer : s.layers) look_at(layer, "layer");
-  if (length > longest) {
-    found.insert(found.begin(),
-                 {longest_one.where, "shaft", "the shaft is as long as " + as_meters(length)});
-  }
-  if (found.empty() && length > slimmest * largest) {
-    found.push_back(
-        {longest_one.where, "shaft",
-         fmt::format("the shaft is {:.4g} times as long as it is thick ({:.4g} m, {:.4g} "
-                     "mm at most): is one of them in another unit?",
-                     length / largest, length, 1e3 * largest)});
-  }
-  tell_once(found, 0);
-  doubts.insert(doubts.end(), found.begin(), found.end());
-}
-
 /// A ring of material along the shaft: a segment or a layer.
 struct Ring {
   std::string name;  ///< "the shaft", "layer sleeve"
+  int shaft = 0;     ///< on which it is
   double from = 0.0, to = 0.0;
   Section left, right;
   bool has_mass = true, has_stiffness = true;
@@ -208,6 +169,7 @@ struct Ring {
 
 Ring ring_of(const Layer& layer, const LayerSpan& span) {
   return {.name = named("layer", layer.name),
+          .shaft = span.shaft,
           .from = span.from,
           .to = span.to,
           .left = layer.left,
@@ -242,15 +204,21 @@ void doubt_layers(const Structure& s, std::vector<Problem>& doubts) {
   if (s.layers.empty()) return;
   const Mesh mesh = make_mesh(s);
   std::vector<Ring> rings;
-  double z = 0.0;
-  for (const Segment& segment : s.shaft) {
-    rings.push_back({"the shaft", z, z + segment.length, segment.left, segment.right});
-    z += segment.length;
+  int number = 0;
+  for (const Structure::Shaft& shaft : s.shafts()) {
+    double z = shaft.start;
+    for (const Segment& segment : shaft.segments) {
+      rings.push_back({shaft.name.empty() ? "the shaft" : "the shaft of rotor " + shaft.name,
+                       number, z, z + segment.length, segment.left, segment.right});
+      z += segment.length;
+    }
+    ++number;
   }
   std::vector<Problem> found;
   for (const Layer& layer : s.layers) {
     const Ring ring = ring_of(layer, span_of(layer, s, mesh));
     for (const Ring& other : rings) {
+      if (other.shaft != ring.shaft) continue;
       const auto shared = overlap_of(ring, other);
       if (!shared) continue;
       // rows of tables have the names of columns
@@ -280,7 +248,7 @@ std::vector<Problem> model_doubts(const std::string& text, const std::string& na
   ModelBuilder builder(root, files, &asked);
   const Model model = builder.build();
   std::vector<Problem> doubts;
-  doubt_sizes(model.structure, doubts);
+  doubt_sizes(root, model, doubts);
   doubt_layers(model.structure, doubts);
   for (const Problem& doubt : builder.doubts()) {  // two bearings may have one table
     const bool is_known = std::any_of(doubts.begin(), doubts.end(), [&](const Problem& d) {
@@ -289,6 +257,7 @@ std::vector<Problem> model_doubts(const std::string& text, const std::string& na
     if (!is_known) doubts.push_back(doubt);
   }
   doubt_bare_numbers(root, asked, doubts);
+  doubt_clearances(root, model, doubts);
   doubt_speed(root, model, doubts);
   for (Problem& doubt : doubts) doubt.where = with_cell_name(doubt.where);
   return doubts;

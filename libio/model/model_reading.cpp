@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "libio/text/encoding.hpp"
-#include "libio/text/file_bytes.hpp"
 #include "libio/text/nearest.hpp"
-#include "libio/text/workbook.hpp"
+#include "libio/text/table_file.hpp"
 
 namespace whirl::inline io {
 
 /// Results keep the text, so that they can be run again: it may stand at the key itself.
-std::optional<ModelReading::NamedText> ModelReading::text_of(
+std::optional<NamedText> ModelReading::text_of(
     TableReader& table, std::string_view key, const char* owner, std::size_t item,
     const std::function<std::size_t(const std::string&)>& columns_in) {
   const auto name = table.string(key);
@@ -27,25 +25,12 @@ std::optional<ModelReading::NamedText> ModelReading::text_of(
                                      in_quotes(*name)));
       return std::nullopt;
     }
-    const SheetName sheet = sheet_name(*name);
-    const std::filesystem::path path = files.folder / sheet.file;
-    auto content = file_bytes(path, FileKind::regular, most_text_bytes);
-    std::string place = path.string();
-    if (content && is_workbook(*content)) {
-      auto found = sheet_of(*content, sheet, columns_in);
-      if (found) place = fmt::format("{}#{}", path.string(), found->name);
-      content = found ? Parsed<std::string>(std::move(found.value->text))
-                      : Parsed<std::string>::failed(found.problem);
-    } else if (content) {
-      content = in_utf8(std::move(*content.value));
-    }
-    if (!content) {
-      table.problem(
-          key, fmt::format("cannot read the file \"{}\"{}", path.string(),
-                           content.problem.starts_with("cannot") ? "" : ": " + content.problem));
+    auto file = table_file(files.folder, *name, FileKind::regular, columns_in);
+    if (!file) {
+      table.problem(key, file.problem);
       return std::nullopt;
     }
-    result = {place, *content};
+    result = std::move(*file.value);
   }
   file_tables.push_back({owner, item, std::string(key), result.text});
   return result;
@@ -58,6 +43,10 @@ std::optional<Station> ModelReading::station(TableReader& table,
   const auto at = table.quantity("at", "m", Range::any);
   const auto node = table.integer("node", Range::positive);
   const auto body = table.string("body");
+  const std::string rotor = rotor_at(table, "rotor");
+  if (table.has("rotor") && !has_at) {
+    table.problem("rotor", "goes with at = position, along the axis of the first shaft");
+  }
   const bool has_place = has_at || has_node || has_body;
   if (const auto* named = has_place ? nullptr : take_place(named_places, table.path("at"))) {
     return named->at;
@@ -79,6 +68,7 @@ std::optional<Station> ModelReading::station(TableReader& table,
     if (!at || (has_node && !node)) return std::nullopt;
     s.kind = Station::Kind::position;
     s.z = *at;
+    s.rotor = rotor;
     if (has_node) double_stations.push_back({s, static_cast<int>(*node)});
     return s;
   }
@@ -89,9 +79,29 @@ std::optional<Station> ModelReading::station(TableReader& table,
 }
 
 std::optional<Station> ModelReading::named_station(const std::string& name, TableReader& table,
-                                                   std::string_view key, bool may_be_ground) {
+                                                   std::string_view key, bool may_be_ground,
+                                                   const std::optional<Station>& beside) {
   Station s{.where = table.where(key), .key = table.path(key)};
   if (may_be_ground && name == "ground") return s;
+  const auto& rotors = model.structure.rotors;
+  const bool is_first = name == first_shaft_name && !rotors.empty();
+  if (beside && (is_first || std::ranges::find(rotors, name, &Rotor::name) != rotors.end())) {
+    s.rotor = is_first ? "" : name;
+    if (beside->rotor == s.rotor && beside->kind != Station::Kind::body) {
+      table.problem(key, fmt::format("{} is the shaft that the part is on, expected another one",
+                                     in_quotes(name)));
+      return std::nullopt;
+    }
+    if (beside->kind != Station::Kind::position) {
+      table.problem(key, fmt::format("{} is another shaft: the part needs at = position on the "
+                                     "shaft beside it, and lies at the same position of both",
+                                     in_quotes(name)));
+      return std::nullopt;
+    }
+    s.kind = Station::Kind::position;
+    s.z = beside->z;
+    return s;
+  }
   const auto& bodies = model.structure.bodies;
   const auto is_it = [&](const Body& body) { return !name.empty() && body.name == name; };
   if (std::none_of(bodies.begin(), bodies.end(), is_it)) {
@@ -99,6 +109,10 @@ std::optional<Station> ModelReading::named_station(const std::string& name, Tabl
     if (may_be_ground) known.push_back("ground");
     for (const Body& body : bodies) {
       if (!body.name.empty()) known.push_back(body.name);
+    }
+    if (beside && !rotors.empty()) known.emplace_back(first_shaft_name);
+    for (const Rotor& rotor : rotors) {
+      if (beside) known.push_back(rotor.name);
     }
     if (known.empty()) {
       table.problem(key, fmt::format("found {}, but the model has no [[body]]", in_quotes(name)));
@@ -110,6 +124,16 @@ std::optional<Station> ModelReading::named_station(const std::string& name, Tabl
   s.kind = Station::Kind::body;
   s.body = name;
   return s;
+}
+
+std::string ModelReading::rotor_at(TableReader& table, std::string_view key) {
+  const auto name = table.string(key);
+  if (!name || *name == first_shaft_name) return "";
+  std::vector<std::string> known{first_shaft_name};
+  for (const Rotor& rotor : model.structure.rotors) known.push_back(rotor.name);
+  if (std::ranges::find(known, *name) != known.end()) return *name;
+  table.unknown_choice(key, *name, known);
+  return "";
 }
 
 const Body* ModelReading::body_at(const Station& station) const {

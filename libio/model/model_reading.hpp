@@ -15,6 +15,7 @@
 #include "libio/model/named_files.hpp"
 #include "libio/model/named_places.hpp"
 #include "libio/model/read_fields.hpp"
+#include "libio/text/table_file.hpp"
 
 namespace whirl::inline io {
 
@@ -25,6 +26,9 @@ struct FileTable {
   std::string key;       ///< which names the file
   std::string text;
 };
+
+/// The first shaft, where the shaft of a rotor is named.
+inline constexpr const char* first_shaft_name = "shaft";
 
 /// A station that was given by position and by node number: both must be the same place.
 struct DoubleStation {
@@ -74,13 +78,17 @@ class ModelReading {
   template <class F>
   void for_each_item(TableReader& table, const char* key, const char* expected, F f);
 
-  /// The keys at, node and body: a place of the rotor or a stator.
+  /// The keys at (with rotor), node and body: a place of the rotor or a stator.
   /// @param instead  keys that do as well as a station
   /// @return  nothing: it is missing or wrong, which is reported
   std::optional<Station> station(TableReader& table, const std::vector<std::string>& instead = {});
-  /// A body, or the ground, by its name at a key.
+  /// A body, the ground, or the place of a rotor beside another station, by its name at a key.
+  /// @param beside  station at the other side; nothing: a rotor is no answer
   std::optional<Station> named_station(const std::string& name, TableReader& table,
-                                       std::string_view key, bool may_be_ground = true);
+                                       std::string_view key, bool may_be_ground = true,
+                                       const std::optional<Station>& beside = {});
+  /// The name of a rotor at a key; empty: the first shaft, or it is wrong, which is reported.
+  std::string rotor_at(TableReader& table, std::string_view key);
   /// The body of a station; null: it is on none that is known.
   const Body* body_at(const Station& station) const;
   /// The material that a table names.
@@ -88,10 +96,6 @@ class ModelReading {
   std::vector<std::string> material_names() const;
 
   /// A text that a key names by its file, or that stands at the key itself.
-  struct NamedText {
-    std::string name;  ///< for messages
-    std::string text;
-  };
   /// @param owner, item  of the table, as in FileTable
   /// @param columns_in  how many columns of this kind of table a line names
   std::optional<NamedText> text_of(

@@ -28,6 +28,7 @@ constexpr KeyNote common_notes[] = {
     {"name", "for messages, --set and --stations"},
     {"at", "position along the shaft, from its left end; the mesh gets a node there"},
     {"node", "node number from 1, for meshes with given elements"},
+    {"rotor", "name of the [[rotor]] that is meant; left out: the first shaft"},
     {"body", "name of a [[body]]"},
     {"moment", "mass times eccentricity"},
     {"offset", "eccentricity: of the disk's or the body's mass"},

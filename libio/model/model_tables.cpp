@@ -9,6 +9,7 @@
 #define TABLES       \
   operation_table(), \
   material_table(),  \
+  rotor_table(),     \
   shaft_table(),     \
   layer_table(),     \
   disk_table(),      \
@@ -24,7 +25,8 @@
   contact_table(),   \
   damping_table(),   \
   reduction_table(), \
-  start_table()
+  start_table(),     \
+  report_table()
 // clang-format on
 
 namespace whirl::inline io {

@@ -50,7 +50,7 @@ NameAndUnit said_in(const std::string& cell, const std::vector<ColumnKind>& kind
   return name_and_unit(cell, [&](const std::string& name, const std::string& unit) {
     const ColumnKind* kind = meaning_of(name, kinds).kind;
     if (!kind || unit.empty()) return kind != nullptr;
-    return !kind->is_text && unit_in_table(unit, kind->unit);
+    return kind->keeps_unit || (!kind->is_text && unit_in_table(unit, kind->unit));
   });
 }
 
@@ -136,6 +136,10 @@ bool take_unit(NamedColumn& column, const std::string& unit, int place,
                const ReportProblem& report) {
   if (!column.kind || unit.empty() || unit == "-") return true;
   const ColumnKind& kind = *column.kind;
+  if (kind.keeps_unit) {
+    column.unit = unit;
+    return true;
+  }
   if (kind.is_text) {
     report(place, kind.name,
            kind.unit_problem.empty() ? "a column of words has no unit" : kind.unit_problem);

@@ -138,9 +138,10 @@ void read_supports(ModelReading& reading, const char* array, std::vector<Connect
     Connection c;
     c.where = table.where();
     c.name = table.string("name").value_or(fmt::format("{} {}", array, i + 1));
-    if (const auto at = reading.station(table)) c.from = *at;
-    if (const auto body = table.string("to")) {
-      if (const auto s = reading.named_station(*body, table, "to")) c.to = *s;
+    const auto at = reading.station(table);
+    if (at) c.from = *at;
+    if (const auto to_name = table.string("to")) {
+      if (const auto s = reading.named_station(*to_name, table, "to", true, at)) c.to = *s;
     }
     table.read(c);
     const ToldKind told = kind_of(table);

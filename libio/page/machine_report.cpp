@@ -18,13 +18,14 @@ struct Analysis {
 };
 
 /// In the order of a report.
-constexpr std::array<Analysis, 17> analyses{{{"lateral", "Lateral analysis"},
+constexpr std::array<Analysis, 19> analyses{{{"lateral", "Lateral analysis"},
                                              {"static", "Sag and bearing loads"},
                                              {"modes", "Modes"},
                                              {"campbell", "Campbell diagram"},
                                              {"resonances", "Internal resonances"},
                                              {"critical", "Critical speeds"},
                                              {"unbalance", "Unbalance response"},
+                                             {"frf", "Frequency response"},
                                              {"simulate", "Motion in time"},
                                              {"identify", "Modes in the motion"},
                                              {"classify", "Kind of motion"},
@@ -34,6 +35,7 @@ constexpr std::array<Analysis, 17> analyses{{{"lateral", "Lateral analysis"},
                                              {"torus", "Quasi-periodic motion"},
                                              {"map", "In a plane of two parameters"},
                                              {"basins", "Coexisting motions"},
+                                             {"fit", "Fit to measurements"},
                                              {"bench", "Speed against error"}}};
 
 std::size_t place_of(const ResultView& result) {
@@ -72,7 +74,7 @@ bool is_one_machine(const std::vector<std::unique_ptr<ResultView>>& results) {
   }
   const FigureTable rows = differences(texts, names_of(results));
   return !rows.header.empty() && std::all_of(rows.rows.begin(), rows.rows.end(), [](const auto& r) {
-    return r.front().starts_with("operation.");
+    return r.front().starts_with("operation.") || r.front().starts_with("report.");
   });
 }
 

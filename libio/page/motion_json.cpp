@@ -12,6 +12,7 @@
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -56,8 +57,14 @@ Record scene_record(const VtkScene& scene) {
     if (is_wall(s.geometry)) r.set("reach", reaches(s));
     stators.add(r);
   }
+  Record supports = Record::array();
+  for (const VtkSupport& s : scene.supports) {
+    Record r;
+    r.set("name", s.name).set("from", s.from).set("to", s.to).set("z", s.z);
+    supports.add(r.set("tip", s.tip).set("foot", s.foot).set("width", s.width));
+  }
   Record r;
-  r.set("z", scene.z).set("shaft", shaft).set("disks", disks);
+  r.set("z", scene.z).set("shaft", shaft).set("disks", disks).set("supports", supports);
   if (const std::string told = symbols_told(scene); !told.empty()) r.set("symbols", told);
   return r.set("stators", stators);
 }
@@ -120,18 +127,19 @@ void add_responses(const ResultView& result, const DofMap& dofs, Record& motions
     CMat motion = CMat::Zero(static_cast<Eigen::Index>(points.size()), 4);
     motion.col(0) = response.x.col(column);
     motion.col(1) = response.y.col(column);
-    const auto& order = mesh.left_to_right;
-    for (std::size_t i = 0; order.size() > 1 && i < order.size(); ++i) {
-      const auto left = static_cast<std::size_t>(order[i > 0 ? i - 1 : 0]);
-      const auto right = static_cast<std::size_t>(order[std::min(i + 1, order.size() - 1)]);
-      const double length = mesh.z[right] - mesh.z[left];
-      const auto slope = [&](int c) {
-        return (motion(static_cast<Eigen::Index>(right), c) -
-                motion(static_cast<Eigen::Index>(left), c)) /
-               length;
-      };
-      motion(order[i], 2) = -slope(1);
-      motion(order[i], 3) = slope(0);
+    for (const std::vector<int>& order : mesh.lines()) {
+      for (std::size_t i = 0; order.size() > 1 && i < order.size(); ++i) {
+        const auto left = static_cast<std::size_t>(order[i > 0 ? i - 1 : 0]);
+        const auto right = static_cast<std::size_t>(order[std::min(i + 1, order.size() - 1)]);
+        const double length = mesh.z[right] - mesh.z[left];
+        const auto slope = [&](int c) {
+          return (motion(static_cast<Eigen::Index>(right), c) -
+                  motion(static_cast<Eigen::Index>(left), c)) /
+                 length;
+        };
+        motion(order[i], 2) = -slope(1);
+        motion(order[i], 3) = slope(0);
+      }
     }
     std::vector<double> re, im;
     double forward = 0.0, backward = 0.0;
@@ -145,7 +153,7 @@ void add_responses(const ResultView& result, const DofMap& dofs, Record& motions
     }
     Record r;
     r.set("kind", "mode").set("whirl", forward >= backward ? "forward" : "backward");
-    r.set("name", fmt::format("Unbalance response at {:.0f} rpm", speeds[s] / rpm));
+    r.set("name", "Unbalance response at " + shown_value(speeds[s], "rpm", ".0f"));
     r.set("about", "One revolution of the steady motion, without contacts.");
     motions.add(r.set("re", arrays.add(re)).set("im", arrays.add(im)));
   }

@@ -5,9 +5,11 @@
 
 namespace whirl::inline io {
 
-extern const std::string_view page_html;    ///< with places for the others
-extern const std::string_view page_style;   ///< CSS
-extern const std::string_view page_script;  ///< JavaScript
-extern const std::string_view page_three;   ///< three.js, minified
+extern const std::string_view page_html;         ///< with places for the others
+extern const std::string_view page_style;        ///< CSS
+extern const std::string_view page_script;       ///< JavaScript
+extern const std::string_view page_three;        ///< three.js, minified
+extern const std::string_view page_paper;        ///< the report for paper, with places
+extern const std::string_view page_paper_style;  ///< its CSS
 
 }  // namespace whirl::inline io

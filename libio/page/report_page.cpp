@@ -1,9 +1,8 @@
 #include "libio/page/report_page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "libbase/error.hpp"
@@ -13,9 +12,12 @@
 #include "libio/drawing/figure_json.hpp"
 #include "libio/figures/comparison.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/page/cover.hpp"
+#include "libio/page/findings.hpp"
 #include "libio/page/machine_report.hpp"
 #include "libio/page/motion_json.hpp"
 #include "libio/page/page_assets.hpp"
+#include "libio/page/report_figures.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/study_status.hpp"
 #include "libio/text/format.hpp"
@@ -37,10 +39,17 @@ std::string parts_of(const ResultView& result) {
   if (!result.assembler) return "";
   const Model& m = *result.model;
   const Structure& s = m.structure;
-  const std::string seals = s.seals.empty() ? "" : fmt::format("{} seals, ", s.seals.size());
-  return fmt::format("{} nodes, {} bodies, {} disks, {} bearings, {}{} contacts",
-                     result.assembler->mesh().nodes(), s.bodies.size(), s.disks.size(),
-                     s.bearings.size(), seals, m.contacts.size());
+  std::vector<std::string> parts;
+  const auto count = [&](std::size_t number, const char* one, const char* several) {
+    parts.push_back(fmt::format("{} {}", number, number == 1 ? one : several));
+  };
+  count(static_cast<std::size_t>(result.assembler->mesh().nodes()), "node", "nodes");
+  count(s.bodies.size(), "body", "bodies");
+  count(s.disks.size(), "disk", "disks");
+  count(s.bearings.size(), "bearing", "bearings");
+  if (!s.seals.empty()) count(s.seals.size(), "seal", "seals");
+  count(m.contacts.size(), "contact", "contacts");
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 /// The machine that several results are of.
@@ -110,6 +119,12 @@ Record warnings_of(const ResultView& result, const std::vector<std::string>& mis
   return warnings;
 }
 
+Record list_of(const std::vector<std::string>& texts) {
+  Record list = Record::array();
+  for (const std::string& text : texts) list.add(text);
+  return list;
+}
+
 /// Measures of the contacts as a table.
 Record contacts_of(const ResultView& result) {
   FigureTable t;
@@ -132,9 +147,22 @@ Record contacts_of(const ResultView& result) {
     row.add(format_engineering(c.max_tangential, "N"));
     rows.add(row);
   }
-  Record header = Record::array();
-  for (const std::string& h : t.header) header.add(h);
-  return Record().set("header", header).set("rows", rows);
+  return Record().set("header", list_of(t.header)).set("rows", rows);
+}
+
+/// The tables that a printed report has of a result.
+Record sheets_of(const ResultView& result) {
+  const Findings found = findings_of(result);
+  Record list = Record::array();
+  for (const std::vector<Sheet>* sheets : {&found.first, &found.sheets}) {
+    for (const Sheet& sheet : *sheets) {
+      Record rows = Record::array(), one;
+      for (const std::vector<std::string>& row : sheet.table.rows) rows.add(list_of(row));
+      one.set("caption", sheet.caption).set("header", list_of(sheet.table.header));
+      list.add(one.set("rows", rows).set("notes", list_of(sheet.notes)));
+    }
+  }
+  return list;
 }
 
 /// JSON that can stand in a <script>: "</script>" would end it, "<!--" change how it is read.
@@ -177,18 +205,8 @@ Record comparison_record(const std::vector<std::unique_ptr<ResultView>>& results
   std::vector<std::string> texts;
   for (const auto& result : results) texts.push_back(stored_model(result->file));
   Record list = Record::array();
-  for (const Figure& f : figures.front()) {
-    std::vector<const Figure*> alike{&f};
-    for (std::size_t n = 1; n < figures.size(); ++n) {
-      const auto same = std::find_if(
-          figures[n].begin(), figures[n].end(),
-          [&](const Figure& other) { return other.kind == f.kind && other.variant == f.variant; });
-      if (same != figures[n].end()) alike.push_back(&*same);
-    }
-    if (alike.size() != figures.size()) continue;
-    if (const auto both = overlay(alike, names)) {
-      list.add(record_of(*both, arrays).set("summary", ""));
-    }
+  for (const Figure& both : compared_figures(figures, names)) {
+    list.add(record_of(both, arrays).set("summary", ""));
   }
   Record title = Record::array();
   for (const std::string& name : names) title.add(name);
@@ -209,6 +227,13 @@ Record attempt(const char* what, std::vector<std::string>& missing, const Make& 
   }
 }
 
+/// The head of a report, name by name.
+Record cover_record(const Cover& cover) {
+  Record lines = Record::array();
+  for (const auto& [name, value] : lines_of(cover)) add_fact(lines, name.c_str(), value);
+  return Record().set("title", cover.words.title).set("lines", lines);
+}
+
 /// A page on its way.
 struct PageBuilder {
   const std::vector<std::unique_ptr<ResultView>>& results;
@@ -216,21 +241,11 @@ struct PageBuilder {
   int figures = 0;
   bool moves = false;
 
-  /// The figures of a kind, with what other results lay over them.
-  std::vector<Figure> figures_with_others(const FigureKind& kind, const ResultView& result) const {
-    std::vector<Figure> of_kind = figures_of(kind, result);
-    for (const auto& other : results) {  // what fits is laid over it
-      if (other.get() == &result || !other_values(result, *other).empty()) continue;
-      lay_over(of_kind, result, *other, std::filesystem::path(other->path).filename());
-    }
-    return of_kind;
-  }
-
   /// Adds the figures of a kind; why there is none goes to what is missing.
   std::vector<Figure> add(const FigureKind& kind, const ResultView& result, Record& to,
                           std::vector<std::string>& missing) {
     try {
-      std::vector<Figure> made = figures_with_others(kind, result);
+      std::vector<Figure> made = figures_with_others(kind, result, results);
       for (const Figure& f : made) {
         to.add(record_of(f, arrays).set("summary", kind.summary));
         ++figures;
@@ -260,6 +275,7 @@ struct PageBuilder {
     moves = moves || !motion.is_empty();
     r.set("figures", list).set("motion", motion);
     r.set("contacts", attempt("table of contacts", missing, [&] { return contacts_of(result); }));
+    r.set("sheets", attempt("tables", missing, [&] { return sheets_of(result); }));
     r.set("model", stored_model(result.file));
     return r.set("warnings", warnings_of(result, missing));
   }
@@ -268,7 +284,7 @@ struct PageBuilder {
 }  // namespace
 
 ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
-                       const std::string& version) {
+                       const Cover& cover) {
   PageBuilder builder{results};
   const bool is_machine = is_one_machine(results);
   std::vector<const ResultView*> ordered;
@@ -278,7 +294,8 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
     for (const auto& result : results) ordered.push_back(result.get());
   }
   Record list = Record::array(), data;
-  data.set("version", version).set("colors", color_record()).set("style", style_record());
+  data.set("version", cover.version).set("cover", cover_record(cover));
+  data.set("colors", color_record()).set("style", style_record());
   if (is_machine) {
     const ResultView& first = *ordered.front();
     Record drawings = Record::array();

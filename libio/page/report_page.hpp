@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libio/figures/figures.hpp"
+#include "libio/page/cover.hpp"
 
 namespace whirl::inline io {
 
@@ -21,8 +22,7 @@ struct ReportPage {
 /// over each other. A figure that fails is told with its reason, and the rest is drawn.
 ///
 /// @param results  one or more
-/// @param version  of the program that makes the page
-ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
-                       const std::string& version);
+/// @param cover    its head
+ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results, const Cover& cover);
 
 }  // namespace whirl::inline io

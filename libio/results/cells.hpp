@@ -47,6 +47,9 @@ struct Cells {
   std::vector<Complex> complexes{};
   std::vector<std::string> texts{};
 
+  std::size_t size() const {
+    return reals.size() + integers.size() + complexes.size() + texts.size();
+  }
   bool is_empty() const {
     return reals.empty() && integers.empty() && complexes.empty() &&
            (texts.empty() || (shape.empty() && texts.front().empty()));

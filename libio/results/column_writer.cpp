@@ -1,4 +1,6 @@
+#include <limits>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "libio/results/columns.hpp"
@@ -102,23 +104,50 @@ Eigen::Index GroupWriter::size_of(std::string_view dimension) const {
   return fixed;
 }
 
+std::size_t product(const std::vector<Eigen::Index>& extents) {
+  std::size_t all = 1;
+  for (const Eigen::Index n : extents) all *= static_cast<std::size_t>(n);
+  return all;
+}
+
+/// Fills a row that knows nothing with NaN, so that those behind it stand at their places.
+/// @param size  of all cells so far, that of this row included
+void fill_row(Cells& cells, std::size_t size, std::string_view column) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (cells.kind == ObjectKind::real && cells.reals.size() < size) {
+    cells.reals.resize(size, unknown);
+  } else if (cells.kind == ObjectKind::complex && cells.complexes.size() < size) {
+    cells.complexes.resize(size, {unknown, unknown});
+  } else if (cells.size() != size) {
+    throw std::logic_error("rows of different sizes in column " + std::string(column));
+  }
+}
+
 /// Writes a column of a list of rows.
 void write_in_rows(GroupWriter& group, const AnyColumn& list, const void* rows, std::size_t count,
                    const AnyColumn& c) {
   if (!c.is_in_rows()) return;
   Cells cells{.kind = c.kind, .shape = {static_cast<Eigen::Index>(count)}};
   const AnyColumn::ToValue add = [&](const void* value) { c.put(cells, value, c.offset()); };
-  const AnyColumn::ToValue add_extents = [&](const void* value) {
-    for (const Eigen::Index n : c.extents(value)) cells.shape.push_back(n);
+  std::vector<Eigen::Index> extents;  // of the largest row: others may know nothing
+  const AnyColumn::ToValue find_extents = [&](const void* value) {
+    const auto found = c.extents(value);
+    if (extents.empty() || product(found) > product(extents))
+      extents.assign(found.begin(), found.end());
   };
-  for (std::size_t i = 0; i < count; ++i) c.give(row_at(rows, list.row_size, i), add);
-  if (c.rank > 0 && count > 0) {
-    c.give(rows, add_extents);
-  } else if (c.rank > 0) {
+  for (std::size_t i = 0; i < count && c.rank > 0; ++i) {
+    c.give(row_at(rows, list.row_size, i), find_extents);
+  }
+  if (c.rank > 0 && count == 0) {
     for (const std::string& d : dimension_names(c.info.dimensions)) {
-      cells.shape.push_back(group.size_of(d));
+      extents.push_back(group.size_of(d));
     }
   }
+  for (std::size_t i = 0; i < count; ++i) {
+    c.give(row_at(rows, list.row_size, i), add);
+    if (c.rank > 0) fill_row(cells, (i + 1) * product(extents), c.info.key);
+  }
+  cells.shape.insert(cells.shape.end(), extents.begin(), extents.end());
   if (c.info.is_optional && cells.is_empty()) return;
   group.dataset(facts_of(c.info, list.rows.dimension, list.rows.prefix), std::move(cells));
 }

@@ -24,7 +24,7 @@ void write_run(ResultWriter& file, const Run& run, const Model& model, const Mot
   write_result(file, run_facts(run.simulation));
   if (!run.has_motion()) return;
   const Recording& r = run.simulation.recording;
-  write_result(file, contact_shares(r.contacts, r.revolutions));
+  write_result(file, contact_shares(r.contacts, r.revolutions, r.rubbing));
   write_result(file, recorded_motion(run));
   if (!run.stations.empty()) write_result(file, spectra_of(run));
 }
@@ -55,18 +55,25 @@ Mat coordinates_in(const Scene& scene, MotionRecord motion, const std::string& p
 
 /// @throws ModelError  naming the file, if it is no recording of this rotor
 Recording stored_recording(const ResultReader& file, const Scene& scene, std::size_t contacts,
-                           const RunFacts& facts) {
-  auto motion = read_result<MotionRecord>(file);
+                           const RunFacts& facts, MotionRecord motion) {
   Recording r{.samples = facts.samples_per_revolution,
               .revolutions = std::lround(facts.revolutions),
               .clock = scene.contacts.clock(),
               .first_revolution = std::lround(motion.time(0) / facts.period),
               .time = motion.time,
               .normal = std::move(motion.normal),
-              .friction = std::move(motion.friction)};
+              .friction = std::move(motion.friction),
+              .begins = motion.begins};
+  r.on_supports.resize(std::ssize(motion.supports) * 2, r.time.size());
+  for (std::size_t i = 0; i < motion.supports.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    r.on_supports.row(row) = motion.supports[i].x.transpose();
+    r.on_supports.row(row + 1) = motion.supports[i].y.transpose();
+  }
   r.eta = coordinates_in(scene, std::move(motion), file.path());
   for (const ContactShare& share : read_result<ContactShares>(file).contacts) {
     r.contacts.push_back(measure_of(share, r.revolutions));
+    r.rubbing.push_back(share.rubbing);
   }
   if (r.eta.cols() != r.revolutions * r.samples || r.contacts.size() != contacts) {
     throw ModelError({file.path()}, "", "its motion is no simulation of this model");
@@ -123,7 +130,11 @@ StoredRun stored_run(const std::string& path, const Model& model, const std::str
   }
   const auto facts = read_result<RunFacts>(*file);
   Scene scene = make_scene(model);
-  Simulation motion{.recording = stored_recording(*file, scene, model.contacts.size(), facts)};
+  auto record = read_result<MotionRecord>(*file);
+  std::vector<SupportLoads::Part> supports;
+  for (const SupportForce& s : record.supports) supports.push_back({s.kind, s.name});
+  Simulation motion{
+      .recording = stored_recording(*file, scene, model.contacts.size(), facts, std::move(record))};
   motion.integration = {
       .outcome = facts.failure ? Outcome::step_too_small : Outcome::reached_end,  // or another one
       .cost = {.steps = std::lround(facts.steps),
@@ -135,7 +146,7 @@ StoredRun stored_run(const std::string& path, const Model& model, const std::str
   std::string integrator =
       !method.empty() ? method : std::string(name_of_method(suitable_method(scene.contacts)));
   return {.run = {std::move(scene), std::move(motion), std::move(points), std::move(integrator),
-                  std::move(spectra)},
+                  std::move(spectra), std::move(supports)},
           .end = read_result<MotionEnd>(*file)};
 }
 

@@ -2,11 +2,14 @@
 
 #include <string>
 
+#include "libdata/balancing/balancing.hpp"
 #include "libdata/fit/measured_fit.hpp"
 #include "libdata/measured/measured_identification.hpp"
 #include "libdata/measured/order_tracking.hpp"
 #include "libdata/measured/running_modes.hpp"
 #include "libdata/measured/station_motion.hpp"
+#include "libdata/measured/trend.hpp"
+#include "libdata/measured/zones.hpp"
 #include "libdyn/linear/critical_over.hpp"
 #include "libdyn/linear/frequency_response.hpp"
 #include "libdyn/linear/lateral_report.hpp"
@@ -58,9 +61,12 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<Identification>());
   add(schema_of<MeasuredIdentification>());
   add(schema_of<OrderTracking>());
+  add(schema_of<Trend>());
+  add(schema_of<ZoneReport>());
   add(schema_of<StationRecord>());
   add(schema_of<RunningModes>());
   add(schema_of<MeasuredFit>());
+  add(schema_of<Balancing>());
   add(schema_of<StaticEquilibrium>());
   add(schema_of<RunningFilms>());
   add(schema_of<BendingLine>());
@@ -69,6 +75,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<ResonanceStudy>());
   add(schema_of<WorkPrecisionStudy>());
   add(schema_of<OrbitResult>());
+  add(schema_of<MotionLoads>());
   add(schema_of<OrbitSeries>());
   add(schema_of<ClassificationResult>());
   add(schema_of<CriticalSpeeds>());
@@ -79,6 +86,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<UnbalanceOver>());
   add(schema_of<FrequencyResponse>());
   add(schema_of<LateralReport>());
+  add(schema_of<LateralParts>());
   add(schema_of<BranchResult>());
   add(schema_of<CurveResult>());
   add(schema_of<TorusResult>());

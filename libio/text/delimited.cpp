@@ -10,6 +10,8 @@
 #include <sstream>
 #include <utility>
 
+#include "libio/text/line_kinds.hpp"
+
 namespace whirl::inline io {
 
 namespace {
@@ -91,26 +93,13 @@ std::size_t line_of_names(const std::vector<TableLine>& lines,
                           const std::function<std::size_t(const std::string&)>& known_names) {
   std::size_t at = 0, most = 1;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (begins_as_number(trimmed(lines[i].text))) break;
+    if (begins_as_number(trimmed(lines[i].text)) && is_row_of_numbers(lines[i].text)) break;
     const std::size_t known = known_names(lines[i].text);
     if (known <= most) continue;
     at = i;
     most = known;
   }
   return at;
-}
-
-/// Whether a line below the names says something in words, and fills no row.
-bool is_note(const std::vector<Cell>& cells, std::size_t columns, Delimiter delimiter) {
-  const auto is_empty = [](const Cell& cell) { return cell.text.empty(); };
-  const auto filled =
-      cells.size() - static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_empty));
-  // in a sheet a table may begin at any column, and a note is one cell
-  const bool begins =
-      delimiter == Delimiter::cell ? filled == 1 : !cells.empty() && !is_empty(cells.front());
-  return filled < columns && begins &&
-         std::none_of(cells.begin(), cells.end(),
-                      [](const Cell& cell) { return begins_as_number(cell.text); });
 }
 
 /// Cells of a line of a sheet: the place of each is the number of its column.
@@ -136,11 +125,6 @@ struct NumberMark {
   std::string_view before, after;  ///< digits around it, with the sign of the number
   bool may_be_thousands = false;   ///< three digits behind it, up to three before
 };
-
-/// Where the numeral of a cell ends, behind which its unit is.
-std::size_t numeral_end(std::string_view cell) {
-  return std::min(cell.find_first_not_of("+-0123456789.,eEdD"), cell.size());
-}
 
 std::optional<NumberMark> mark_of(std::string_view cell) {
   const std::string_view numeral = cell.substr(0, numeral_end(cell));
@@ -287,7 +271,13 @@ std::vector<TableRow> table_rows(const std::vector<TableLine>& lines, Delimiter 
     while (cells.size() > columns && !begins_as_number(cells.back().text)) cells.pop_back();
     rows.push_back({&lines[i], std::move(cells)});
   }
-  while (!rows.empty() && is_note(rows.back().cells, columns, delimiter)) rows.pop_back();
+  const auto is_below = [&] {
+    const std::vector<Cell>& last = rows.back().cells;
+    if (is_note(last, columns, delimiter) || is_total(last, columns)) return true;
+    return std::any_of(rows.rbegin() + 1, rows.rend(),
+                       [&](const TableRow& row) { return is_statistic(last, row.cells); });
+  };
+  while (!rows.empty() && is_below()) rows.pop_back();
   return rows;
 }
 

@@ -61,7 +61,8 @@ struct TableRow {
 };
 
 /// The lines below the names as cells, without what people wrote beside and below: words behind the
-/// last column, and lines of words below the last row; and without lines that repeat the names.
+/// last column, lines of words and of totals below the last row; and without lines that repeat the
+/// names.
 /// @param lines  as table_lines gives them, the names first
 std::vector<TableRow> table_rows(const std::vector<TableLine>& lines, Delimiter delimiter,
                                  std::size_t columns);

@@ -10,6 +10,8 @@ namespace whirl::inline io {
 ///
 ///   format_engineering(4e6, "N/m") = "4 MN/m",   format_engineering(5e-4, "m") = "500 um"
 ///
+/// Where other units than those of SI are shown (shown_units.hpp) it is told in these.
+///
 /// A prefix goes to a leading m, N, Pa or rad without exponent, and to s alone. Masses are given in
 /// mg, g, kg and unbalances in g.mm, kg.mm, kg.m; any other unit stays as it is.
 ///
@@ -17,6 +19,9 @@ namespace whirl::inline io {
 /// @param si_unit  as in dimension_of; empty for a plain number
 /// @param digits   1 to 10
 std::string format_engineering(double value, std::string_view si_unit, int digits = 4);
+
+/// A number by a format of fmt, ".2f", zero without a sign unless the format has one; "-" for NaN.
+std::string format_number(double value, std::string_view format);
 
 /// A length [m]: "500 um", "20 mm", "1.2 m".
 std::string format_length(double value);
@@ -28,7 +33,7 @@ std::string format_grouped(double value);
 /// "1e-6", "2.5e-7"
 std::string format_tolerance(double tolerance);
 
-/// A speed [rad/s], in revolutions per minute: "3650 rpm".
+/// A speed [rad/s], in revolutions per minute if no other unit is shown: "3650 rpm".
 std::string format_speed(double value);
 
 }  // namespace whirl::inline io

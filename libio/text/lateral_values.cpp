@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libio/text/parameter_axis.hpp"
+#include "libio/text/vendor_units.hpp"
 
 namespace whirl::inline io {
 
@@ -21,7 +22,9 @@ Parsed<double> parse_running_speed(std::string_view text) {
 }
 
 Parsed<double> parse_coupling(std::string_view text) {
-  return parse_above_zero(text, "N/m");
+  const auto value = parse_above_zero(text, "N/m");
+  if (value) return value;
+  return Parsed<double>::failed(value.problem + vendor_hint(std::string(text), "N/m"));
 }
 
 Parsed<double> parse_gas_density(std::string_view text) {

@@ -44,7 +44,9 @@ std::string ending_problem(std::string_view file, std::string_view endings) {
   const std::string ending = lower_case(std::filesystem::path(file).extension().string());
   const bool is_right = ending.empty() || endings.empty() || is_among(ending, endings);
   if (is_right || !is_among(ending, endings_of_formats)) return "";
-  const std::string_view right = endings.substr(0, endings.find(' '));
+  std::string right(endings.substr(0, endings.find(' ')));
+  // of a report, whose two endings are two things
+  if (is_among(".pdf", endings) && right != ".pdf") right += " or .pdf";
   return fmt::format("what is written is no {} file, expected a name that ends in {}",
                      ending.substr(1), right);
 }

@@ -8,6 +8,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libio/results/call.hpp"
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -94,6 +95,24 @@ std::string probe_table(const MeasuredFit& found) {
   return "\n" + table_of(found.probes, columns);
 }
 
+std::string runout_table(const MeasuredFit& found) {
+  if (found.runouts.empty()) return "";
+  using R = FittedRunout;
+  const auto told = [&](const R& r, double length) {
+    const auto probe = std::ranges::find(found.probes, r.probe, &FittedProbe::name);
+    return probe == found.probes.end() ? format_length(length) : reading_text(length, *probe);
+  };
+  return "\nRunout, amplitude and phase against the mark, the same in all records\n\n" +
+         table_of(found.runouts,
+                  TableColumns<R>{shown("probe"),
+                                  {"order", [](const R& r) { return fmt::format("{}X", r.order); }},
+                                  {"amplitude", [=](const R& r) { return told(r, r.amplitude); }},
+                                  {"±", [=](const R& r) { return told(r, r.standard_deviation); }},
+                                  {"phase [deg]", [](const R& r) {
+                                     return fmt::format("{:.0f}", r.phase / degree);
+                                   }}});
+}
+
 std::string candidate_table(const MeasuredFit& found) {
   if (found.candidates.empty()) return "";
   using C = FitCandidate;
@@ -121,8 +140,8 @@ std::string text_of(const MeasuredFit& found, const std::string& model) {
                                 : r.period == 1
                                     ? ", their average"
                                     : fmt::format(", averaged to {} revolutions", r.period);
-    text += fmt::format("  record: {}, {:.4g} revolutions at {:.6g} rpm{}\n", r.file, r.revolutions,
-                        r.speed / rpm, average);
+    text += fmt::format("  record: {}, {:.4g} revolutions at {}{}\n", r.file, r.revolutions,
+                        shown_value(r.speed, "rpm", ".6g"), average);
   }
   text += fmt::format("  readings: {} of {} probes, {:.5g} % of their variance explained\n",
                       found.readings, found.probes.size(), 100.0 * found.explained);
@@ -130,7 +149,7 @@ std::string text_of(const MeasuredFit& found, const std::string& model) {
     text += fmt::format("  starts: {}, of which {} end here\n", found.starts, found.same_end);
   }
   text += "\n" + parameter_table(found) + correlation_table(found) + probe_table(found) +
-          candidate_table(found);
+          runout_table(found) + candidate_table(found);
   text += "\n  to go on: whirl simulate " + shell_word(model);
   for (const FittedParameter& p : found.parameters) {
     text += " \\\n    --set " + shell_word(fmt::format("{}={:.10g}{}", p.path, p.value, p.unit));

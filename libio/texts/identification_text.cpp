@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -24,11 +25,11 @@ std::string shift_text(const IdentifiedPeak& p) {
   return std::abs(p.shift) > far ? made_of : shift + ", " + made_of;
 }
 
-/// "2F 1664": number, sense and frequency [rpm] of a mode.
+/// "2F 1664": number, sense and frequency of a mode.
 std::string mode_heading(const Mode& m, std::size_t number) {
   const std::string_view whirl = name_of(m.whirl);
-  return fmt::format("{}{} {:.0f}", number, static_cast<char>(std::toupper(whirl.front())),
-                     m.frequency() / rpm);
+  return fmt::format("{}{} {}", number, static_cast<char>(std::toupper(whirl.front())),
+                     shown_number(m.frequency(), "rpm", ".0f"));
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ std::string text_of(const Identification& found, double Omega, bool has_sense,
       shown("frequency", "rpm", has_sense ? "+.1f" : ".1f").as("peak")};
   if (has_sense) {
     columns.push_back({"from the rotor", [=](const IdentifiedPeak& p) {
-                         return texts::number_text((p.frequency - Omega) / rpm, "+.1f");
+                         return shown_number(p.frequency - Omega, "rpm", "+.1f");
                        }});
   }
   const std::string size = has_sense ? "radius" : "amplitude";
@@ -60,8 +61,9 @@ std::string text_of(const Identification& found, double Omega, bool has_sense,
   columns.push_back({"shift", shift_text});
   std::string text = table_of(found.peaks, columns);
   if (const auto& r = found.resonance) {
-    text += fmt::format("\n  seen from the rotor {:.1f} : {:.1f} rpm = {}:{} within {:.2g} %\n",
-                        r->high / rpm, r->low / rpm, r->p, r->q, 100.0 * r->error);
+    text += fmt::format("\n  seen from the rotor {} : {} = {}:{} within {:.2g} %\n",
+                        shown_number(r->high, "rpm", ".1f"), shown_value(r->low, "rpm", ".1f"),
+                        r->p, r->q, 100.0 * r->error);
   }
   return text;
 }
@@ -80,10 +82,9 @@ std::string text_of(const MeasuredIdentification& measured) {
     probes += fmt::format("{}{} ({:g} deg{})", probes.empty() ? "" : ", ", p.name, p.angle_deg(),
                           p.is_axial() ? " along z" : "");
   }
-  return fmt::format(
-      "  probes: {}\n  speed: {:.6g} rpm\n  transformed: {:.4g} s, lines {:.3g} rpm "
-      "apart\n",
-      probes, measured.speed / rpm, measured.duration, measured.found.bin / rpm);
+  return fmt::format("  probes: {}\n  speed: {}\n  transformed: {:.4g} s, lines {} apart\n", probes,
+                     shown_value(measured.speed, "rpm", ".6g"), measured.duration,
+                     shown_value(measured.found.bin, "rpm", ".3g"));
 }
 
 std::string deflection_text(const MeasuredIdentification& measured) {
@@ -92,9 +93,8 @@ std::string deflection_text(const MeasuredIdentification& measured) {
   if (peaks == 0 || measured.probes.size() < 2) return "";
   std::vector<std::string> head{"probe"};
   for (std::size_t i = 0; i < peaks; ++i) {
-    const double peak = measured.found.peaks[i].frequency / rpm;
-    head.push_back(texts::number_text(peak, measured.is_in_one_direction ? ".1f" : "+.1f") +
-                   " rpm");
+    head.push_back(shown_value(measured.found.peaks[i].frequency, "rpm",
+                               measured.is_in_one_direction ? ".1f" : "+.1f"));
   }
   Table table(std::move(head));
   for (std::size_t p = 0; p < measured.probes.size(); ++p) {
@@ -112,6 +112,35 @@ std::string deflection_text(const MeasuredIdentification& measured) {
                      table.text());
 }
 
+namespace {
+
+/// Peaks of orders with their amplification factors; empty: there are none.
+std::string peaks_text(const OrderTracking& tracking) {
+  if (tracking.peaks.empty()) return "";
+  const auto curve = [&](const OrderPeak& p) -> const OrderCurve& {
+    return tracking.curves[static_cast<std::size_t>(p.row)];
+  };
+  const auto told = [](double value, const char* format, double unit) {
+    return std::isfinite(value) ? texts::number_text(value / unit, format) : std::string("-");
+  };
+  const auto speed = [](double value) {
+    return std::isfinite(value) ? shown_number(value, "rpm", ".1f") : std::string("-");
+  };
+  const TableColumns<OrderPeak> columns{
+      {"probe", [=](const OrderPeak& p) { return curve(p).name; }},
+      {"order", [=](const OrderPeak& p) { return fmt::format("{:g}X", curve(p).order); }},
+      {shown_heading("peak", "rpm"), [=](const OrderPeak& p) { return speed(p.speed); }},
+      {"p-p", [=](const OrderPeak& p) { return reading_text(p.peak_to_peak(), curve(p)); }},
+      {"phase [deg]", [=](const OrderPeak& p) { return told(p.phase, "+.1f", degree); }},
+      {shown_heading("N1", "rpm"), [=](const OrderPeak& p) { return speed(p.below); }},
+      {shown_heading("N2", "rpm"), [=](const OrderPeak& p) { return speed(p.above); }},
+      {"AF", [=](const OrderPeak& p) { return told(p.amplification(), ".3g", 1.0); }}};
+  return "\nPeaks along the record, AF = N / (N2 - N1) at 0.707 of the peak\n\n" +
+         table_of(tracking.peaks, columns);
+}
+
+}  // namespace
+
 std::string text_of(const OrderTracking& tracking) {
   const auto largest = [](const OrderCurve& c) {
     Eigen::Index at = 0;
@@ -123,19 +152,20 @@ std::string text_of(const OrderTracking& tracking) {
       {"order", [](const OrderCurve& c) { return fmt::format("{:g}X", c.order); }},
       {"largest p-p",
        [&](const OrderCurve& c) { return reading_text(c.peak_to_peak()(largest(c)), c); }},
-      {"at [rpm]",
-       [&](const OrderCurve& c) {
-         return texts::number_text(tracking.speed(largest(c)) / rpm, ".1f");
-       }},
+      {shown_heading("at", "rpm"),
+       [&](const OrderCurve& c) { return shown_number(tracking.speed(largest(c)), "rpm", ".1f"); }},
       {"phase [deg]", [&](const OrderCurve& c) {
          return texts::number_text(std::arg(c.response(largest(c))) / degree, "+.1f");
        }}};
-  const std::string off = tracking.slow_roll ? fmt::format(", readings at {:.6g} rpm taken off",
-                                                           *tracking.slow_roll / rpm)
-                                             : "";
-  return fmt::format("Orders from {:.6g} to {:.6g} rpm, {} points{}\n\n{}",
-                     tracking.speed.minCoeff() / rpm, tracking.speed.maxCoeff() / rpm,
-                     tracking.speed.size(), off, table_of(tracking.curves, columns));
+  const std::string off = tracking.slow_roll
+                              ? fmt::format(", readings at {} taken off",
+                                            shown_value(*tracking.slow_roll, "rpm", ".6g"))
+                              : "";
+  return fmt::format("Orders from {} to {}, {} points{}\n\n{}",
+                     shown_number(tracking.speed.minCoeff(), "rpm", ".6g"),
+                     shown_value(tracking.speed.maxCoeff(), "rpm", ".6g"), tracking.speed.size(),
+                     off, table_of(tracking.curves, columns)) +
+         peaks_text(tracking);
 }
 
 std::string doubt_text(const MeasuredIdentification& measured) {

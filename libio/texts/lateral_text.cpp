@@ -9,6 +9,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/units.hpp"
 #include "libio/texts/modes_text.hpp"
@@ -30,6 +31,8 @@ std::string amount_text(LateralRule rule, double value, const VibrationUnit& uni
     case LateralRule::vibration:
       return fmt::format("{:.{}f} {}", unit.factor * value, unit.factor < 1e6 ? 3 : 1, unit.name);
     case LateralRule::log_decrement:
+      return fmt::format("{:.3f}", value);
+    case LateralRule::level_two:
       return fmt::format("{:.3f}", value);
     case LateralRule::coupling_ratio:
     case LateralRule::stability_region:
@@ -55,9 +58,9 @@ std::string limit_text(const LateralCheck& c, const VibrationUnit& unit) {
 std::string region_text(const LateralReport& r) {
   if (!std::isfinite(r.rigid_critical_speed)) return "";
   const std::string ratio = fmt::format(
-      "\n  Critical speed ratio {:.2f}: {:.0f} rpm over {:.1f} rpm, the first critical speed on "
-      "rigid supports",
-      r.critical_speed_ratio(), r.maximum_speed / rpm, r.rigid_critical_speed / rpm);
+      "\n  Critical speed ratio {:.2f}: {} over {}, the first critical speed on rigid supports",
+      r.critical_speed_ratio(), shown_value(r.maximum_speed, "rpm", ".0f"),
+      shown_value(r.rigid_critical_speed, "rpm", ".1f"));
   const auto region = r.region();
   if (!region) return ratio + ".\n";
   return fmt::format("{}; with {:.3g} kg/m^3 of gas in region {}, where it may be {:.2f}.\n", ratio,
@@ -71,6 +74,20 @@ std::string decrement_text(double log_decrement) {
   return log_decrement > 0.0 ? "no mode oscillates" : "the rotor leaves its place without a whirl";
 }
 
+/// Level I of the model and its variants, where there are any.
+std::string level_one_text(const LateralParts& parts) {
+  if (parts.level_one.empty()) return "";
+  return "\nLevel I, state by state; what is told above is that of the worst\n\n" +
+         table_of(parts.level_one,
+                  {{"state", [](const LevelOneState& s) { return state_name(s.variant); }},
+                   shown("log_decrement", "", ".4f"),
+                   {"bears Q0 of", [](const LevelOneState& s) {
+                      return s.limit == 0.0           ? "0, unstable"
+                             : std::isfinite(s.limit) ? format_engineering(s.limit, "N/m")
+                                                      : "any";
+                    }}});
+}
+
 std::string coupling_text(const LateralReport& r) {
   const std::string limit =
       r.limit == 0.0           ? "a mode grows without any: the rotor is unstable, Q0 is 0"
@@ -81,10 +98,9 @@ std::string coupling_text(const LateralReport& r) {
                                ? fmt::format("with the {} that are to be expected",
                                              format_engineering(r.anticipated, "N/m"))
                                : "without any cross-coupled stiffness beside that of the model";
-  return fmt::format(
-      "\n  Stability at {:.0f} rpm, level I, cross-coupled stiffness at {}:\n"
-      "  {} {}; {}.\n",
-      r.maximum_speed / rpm, r.coupled_station, decrement_text(r.log_decrement), told, limit);
+  return fmt::format("\n  Stability at {}, level I, cross-coupled stiffness at {}:\n  {} {}; {}.\n",
+                     shown_value(r.maximum_speed, "rpm", ".0f"), r.coupled_station,
+                     decrement_text(r.log_decrement), told, limit);
 }
 
 /// By which sides of a peak its amplification factor is known.
@@ -93,18 +109,26 @@ std::string sides_text(const LateralPeak& p) {
   return p.sides == PeakSides::both ? "both sides" : "-";
 }
 
+std::string case_text(const LateralReport& r, int of_case) {
+  const std::string& variant = r.cases[static_cast<std::size_t>(of_case)].variant;
+  return variant.empty() ? std::to_string(of_case + 1)
+                         : fmt::format("{} ({})", of_case + 1, variant);
+}
+
 std::string cases_text(const LateralReport& r) {
+  const auto of = [&](const LateralPlane& p) -> const LateralCase& {
+    return r.cases[static_cast<std::size_t>(p.of_case)];
+  };
   return table_of(
-      r.planes, {{"case", [](const LateralPlane& p) { return std::to_string(p.of_case + 1); }},
-                 {"for the mode at [rpm]",
-                  [&](const LateralPlane& p) {
-                    return fmt::format(
-                        "{:.1f}", r.cases[static_cast<std::size_t>(p.of_case)].mode_speed / rpm);
-                  }},
-                 shown("station").as("unbalance at"),
-                 shown("moment", "g.mm", ".1f").as("unbalance"),
-                 {"phase [deg]",
-                  [](const LateralPlane& p) { return fmt::format("{:.0f}", p.phase / degree); }}});
+      r.planes,
+      {{"case", [&](const LateralPlane& p) { return case_text(r, p.of_case); }},
+       {"placed at", [&](const LateralPlane& p) { return std::string(name_of(of(p).places)); }},
+       {shown_heading("for the mode at", "rpm"),
+        [&](const LateralPlane& p) { return shown_number(of(p).mode_speed, "rpm", ".1f"); }},
+       shown("station").as("unbalance at"),
+       shown("moment", "g.mm", ".1f").as("unbalance"),
+       {"phase [deg]",
+        [](const LateralPlane& p) { return fmt::format("{:.0f}", p.phase / degree); }}});
 }
 
 std::string peaks_text(const LateralReport& r) {
@@ -112,8 +136,9 @@ std::string peaks_text(const LateralReport& r) {
   const VibrationUnit unit = vibration_unit(r);
   return table_of(
       r.peaks,
-      {{"case", [](const LateralPeak& p) { return std::to_string(p.of_case + 1); }},
-       {"peak [rpm]", [](const LateralPeak& p) { return fmt::format("{:.1f}", p.speed / rpm); }},
+      {{"case", [&](const LateralPeak& p) { return case_text(r, p.of_case); }},
+       {shown_heading("peak", "rpm"),
+        [](const LateralPeak& p) { return shown_number(p.speed, "rpm", ".1f"); }},
        {"probe",
         [&](const LateralPeak& p) { return r.probes[static_cast<std::size_t>(p.row)].station; }},
        {"peak to peak [" + unit.name + "]",
@@ -133,14 +158,47 @@ std::string peaks_text(const LateralReport& r) {
         }}});
 }
 
+/// "minimum clearance: 5 seal".
+std::string place_text(const LateralCheck& c) {
+  const std::string place =
+      c.missing.empty() ? c.place : fmt::format("not checked: {} not given", c.missing);
+  return c.variant.empty() ? place : fmt::format("{}: {}", c.variant, place);
+}
+
+std::string forces_text(const LateralReport& r, const LateralParts& parts) {
+  if (parts.forces.empty()) return "";
+  return "\nForces of the unbalance on supports up to the trip speed\n\n" +
+         table_of(parts.forces,
+                  {{"case", [&](const LateralForce& f) { return case_text(r, f.of_case); }},
+                   shown("name").as("support"),
+                   shown("kind").as(""),
+                   shown("force", "N", ".4g").as("largest"),
+                   shown("speed", "rpm", ".1f").as("at")});
+}
+
+std::string level_two_text(const LateralParts& parts) {
+  if (parts.level_two.empty()) return "";
+  return "\nLevel II: logarithmic decrement at the maximum speed, seal by seal\n\n" +
+         table_of(parts.level_two, {{"the rotor",
+                                     [](const LevelTwoStep& s) {
+                                       return s.variant.empty() ? s.parts
+                                                                : s.variant + ": " + s.parts;
+                                     }},
+                                    shown("log_decrement", "", ".4f"),
+                                    shown("frequency", "rpm", ".1f").as("of the mode at")});
+}
+
 }  // namespace
 
 std::vector<std::string> check_header() {
-  return {"rule", "case", "where", "at [rpm]", "found", "asked for", "verdict"};
+  return {"rule", "case", "where", shown_heading("at", "rpm"), "found", "asked for", "verdict"};
 }
 
 VibrationUnit vibration_unit(const LateralReport& report) {
-  if (report.vibration_unit.empty()) return {};
+  if (report.vibration_unit.empty()) {
+    const ShownUnit unit = shown_unit("um");
+    return {unit.name, 1.0 / unit.size};
+  }
   const auto one = parse_as("1 " + report.vibration_unit, "m");
   if (!one) throw FileError("the unit of vibration: " + one.problem);
   return {report.vibration_unit, 1.0 / *one};
@@ -149,8 +207,8 @@ VibrationUnit vibration_unit(const LateralReport& report) {
 std::vector<std::string> check_cells(const LateralCheck& c, const VibrationUnit& unit) {
   return {std::string(name_of(c.rule)),
           c.of_case < 0 ? "-" : std::to_string(c.of_case + 1),
-          c.missing.empty() ? c.place : fmt::format("not checked: {} not given", c.missing),
-          texts::number_text(c.speed / rpm, ".0f"),
+          place_text(c),
+          shown_number(c.speed, "rpm", ".0f"),
           amount_text(c.rule, c.found, unit),
           limit_text(c, unit),
           c.verdict == Verdict::failed ? "FAILED" : std::string(name_of(c.verdict))};
@@ -175,6 +233,9 @@ std::string rule_text(LateralRule rule) {
     case LateralRule::coupling_ratio:
       return "cross-coupled stiffness that the rotor bears over that to be expected, Q0 / QA, "
              "level I [API 617]";
+    case LateralRule::level_two:
+      return "0.1 at the maximum speed with all seals of the model, whose coefficients stand for "
+             "everything that may drive a whirl, level II [API 617]";
     case LateralRule::stability_region:
       break;
   }
@@ -196,6 +257,8 @@ std::string short_rule_text(LateralRule rule, const VibrationUnit& unit) {
       return "0.1 with QA, level I";
     case LateralRule::coupling_ratio:
       return "Q0 / QA of 2, level I";
+    case LateralRule::level_two:
+      return "0.1 with all seals, level II";
     case LateralRule::stability_region:
       break;
   }
@@ -205,7 +268,7 @@ std::string short_rule_text(LateralRule rule, const VibrationUnit& unit) {
 std::vector<std::string> remarks_on(const LateralReport& report) {
   std::vector<std::string> one_sided, damped;
   for (const LateralPeak& p : report.peaks) {
-    const std::string speed = fmt::format("{:.0f} rpm", p.speed / rpm);
+    const std::string speed = shown_value(p.speed, "rpm", ".0f");
     if (p.is_one_sided()) one_sided.push_back(speed);
     if (p.kind() == PeakKind::critically_damped) damped.push_back(speed);
   }
@@ -245,18 +308,26 @@ std::string verdict_text(const LateralReport& report) {
 std::string text_of(const LateralStudy& study) {
   const LateralReport& r = study.report;
   std::string text = fmt::format(
-      "Lateral analysis after API 617 and API 684: {:.0f} to {:.0f} rpm, trip at {:.0f} rpm\n\n",
-      r.minimum_speed / rpm, r.maximum_speed / rpm, r.trip_speed / rpm);
+      "Lateral analysis after API 617 and API 684: {} to {}, trip at {}\n\n",
+      shown_number(r.minimum_speed, "rpm", ".0f"), shown_value(r.maximum_speed, "rpm", ".0f"),
+      shown_value(r.trip_speed, "rpm", ".0f"));
   text +=
       table_of(r.journals, {shown("name").as("journal"), shown("mass", "kg", ".2f").as("carries")});
   text += "\n" + text_of(study.criticals);
-  text += "\nUnbalance, twice 6350 W / N, at the antinodes of modes\n\n" + cases_text(r);
+  if (!study.parts.level_one.empty()) {
+    text +=
+        "\n  Critical speeds and the Campbell diagram are those of the model itself, without its "
+        "variants.\n";
+  }
+  text +=
+      "\nUnbalance, twice 6350 W / N, at antinodes of modes and overhung ends\n\n" + cases_text(r);
   text += "\nPeaks of the vibration at probes\n\n" + peaks_text(r);
   for (const Threshold& t : study.campbell.thresholds) {
-    text += fmt::format("\n  threshold of instability: {:.1f} rpm, whirling at {:.1f} rpm\n",
-                        t.speed / rpm, t.frequency / rpm);
+    text += fmt::format("\n  threshold of instability: {}, whirling at {}\n",
+                        shown_value(t.speed, "rpm", ".1f"), shown_value(t.frequency, "rpm", ".1f"));
   }
-  text += coupling_text(r) + region_text(r);
+  text += forces_text(r, study.parts) + coupling_text(r) + level_one_text(study.parts) +
+          region_text(r) + level_two_text(study.parts);
   Table checks(check_header());
   for (const LateralCheck& c : r.checks) checks.row(check_cells(c, vibration_unit(r)));
   text += fmt::format("\nChecks: {}\n\n{}\n", verdict_text(r), checks.text());

@@ -16,6 +16,11 @@ struct VibrationUnit {
 /// @throws FileError  for a report of a file, if the unit is no length
 VibrationUnit vibration_unit(const LateralReport& report);
 
+/// Name of a state of the machine: "the model itself", or that of a variant.
+inline std::string state_name(const std::string& variant) {
+  return variant.empty() ? "the model itself" : variant;
+}
+
 /// Cells of the table of passes and failures, with its header.
 std::vector<std::string> check_header();
 std::vector<std::string> check_cells(const LateralCheck& check, const VibrationUnit& unit);

@@ -11,6 +11,7 @@
 #include "libfe/parts/exceeded_tables.hpp"
 #include "libio/model/model_doubts.hpp"
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/terminal.hpp"
 #include "libio/texts/row_table.hpp"
@@ -73,6 +74,14 @@ std::string rest_text(const ModelFacts& facts) {
                                       shown("clearance", "mm", ".4f"),
                                       shown("distance", "mm", ".4f").as("displaced"),
                                       shown("left", "mm", ".4f")});
+    const bool has_bearing = std::ranges::any_of(closest, [](const RunningClearance& c) {
+      return c.name.starts_with("bearing") || c.name.starts_with("seal");
+    });
+    if (has_bearing) {
+      text +=
+          "  in bearings and seals the displacement is the load over the stiffness of their "
+          "coefficients,\n  no place of a journal in its film\n";
+    }
   }
   return text;
 }
@@ -95,6 +104,15 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
   if (facts.transverse_inertia) {
     table.row({"transverse moment of inertia about the center",
                format_engineering(*facts.transverse_inertia, "kg.m^2")});
+  }
+  for (const Structure::Shaft& shaft : s.shafts()) {
+    if (shaft.name.empty()) continue;
+    table.row(
+        {"rotor " + shaft.name,
+         fmt::format("{:.6g} times the speed{}", shaft.ratio,
+                     shaft.segments.empty() ? ""
+                                            : fmt::format(", {} to {}", format_length(shaft.start),
+                                                          format_length(shaft.end())))});
   }
   table.row({"nodes, bodies", fmt::format("{}, {}", facts.nodes, s.bodies.size())});
   table.row({"degrees of freedom",
@@ -134,15 +152,15 @@ std::vector<std::string> table_notes(const Structure& structure,
   for (const ExceededTable& table : tables) {
     std::string beyond;
     if (lowest < table.first) {
-      beyond = fmt::format("below (asked: {:.6g} rpm)", lowest / rpm);
+      beyond = fmt::format("below (asked: {})", shown_value(lowest, "rpm", ".6g"));
     }
     if (highest > table.last) {
-      beyond +=
-          fmt::format("{}above (asked: {:.6g} rpm)", beyond.empty() ? "" : " and ", highest / rpm);
+      beyond += fmt::format("{}above (asked: {})", beyond.empty() ? "" : " and ",
+                            shown_value(highest, "rpm", ".6g"));
     }
-    notes.push_back(
-        fmt::format("the table of {} goes from {:.6g} to {:.6g} rpm; its ends are held constant {}",
-                    table.name, table.first / rpm, table.last / rpm, beyond));
+    notes.push_back(fmt::format("the table of {} goes from {} to {}; its ends are held constant {}",
+                                table.name, shown_number(table.first, "rpm", ".6g"),
+                                shown_value(table.last, "rpm", ".6g"), beyond));
   }
   return notes;
 }

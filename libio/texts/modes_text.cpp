@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/row_table.hpp"
 #include "libio/texts/some_rows.hpp"
 
@@ -43,19 +44,21 @@ std::string crossings_text(const Campbell& diagram) {
   if (diagram.crossings.empty()) {
     text += "\n  No branch meets the line frequency = speed in this range.\n";
   } else {
-    text += "\n  critical speeds (frequency = speed) [rpm]:";
+    text += shown_heading("\n  critical speeds (frequency = speed)", "rpm") + ":";
     for (const Crossing& c : diagram.crossings) {
-      text += fmt::format(" {:.1f} ({})", c.speed / rpm, c.branch + 1);
+      text += fmt::format(" {} ({})", shown_number(c.speed, "rpm", ".1f"), c.branch + 1);
     }
     text += "\n";
   }
   for (const Threshold& t : diagram.thresholds) {
-    text += fmt::format(
-        "\n  threshold of instability: {:.2f} rpm, where {} whirls at {:.2f} rpm\n", t.speed / rpm,
-        t.is_followed() ? fmt::format("mode {}", t.branch + 1) : "another mode", t.frequency / rpm);
+    text += fmt::format("\n  threshold of instability: {}, where {} whirls at {}\n",
+                        shown_value(t.speed, "rpm", ".2f"),
+                        t.is_followed() ? fmt::format("mode {}", t.branch + 1) : "another mode",
+                        shown_value(t.frequency, "rpm", ".2f"));
   }
   for (const CampbellGap& gap : diagram.gaps) {
-    text += fmt::format("\n  not computed at {:.1f} rpm: {}\n", gap.speed / rpm, gap.why);
+    text +=
+        fmt::format("\n  not computed at {}: {}\n", shown_value(gap.speed, "rpm", ".1f"), gap.why);
   }
   return text;
 }
@@ -63,14 +66,16 @@ std::string crossings_text(const Campbell& diagram) {
 }  // namespace
 
 std::string text_of(const Modes& modes) {
-  std::string text = table_of(modes.oscillatory, {{"mode", marked_number},
-                                                  shown("frequency", "rpm", ".1f"),
-                                                  shown("frequency", "Hz", ".3f").as(""),
-                                                  shown("log_decrement", "", ".4f"),
-                                                  shown("damping_ratio", "", ".5f"),
-                                                  shown("whirl"),
-                                                  shown("kappa", "", ".3f")}) +
-                     legend_of(modes.oscillatory);
+  std::string text =
+      table_of(modes.oscillatory, in_both_units<Mode>({{"mode", marked_number},
+                                                       shown("frequency", "rpm", ".1f"),
+                                                       shown("frequency", "Hz", ".3f").as(""),
+                                                       shown("log_decrement", "", ".4f"),
+                                                       shown("damping_ratio", "", ".5f"),
+                                                       shown("whirl"),
+                                                       shown("kappa", "", ".3f")},
+                                                      2)) +
+      legend_of(modes.oscillatory);
   if (!modes.overdamped.empty()) {
     text += "\n  overdamped [1/s]:";
     for (const Complex& root : modes.overdamped) text += fmt::format(" {:.4g}", root.real());
@@ -84,26 +89,28 @@ std::string text_of(const Modes& modes) {
 
 std::string text_of(const CriticalSpeeds& found) {
   return "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
-         table_of(found.criticals, {{"number", marked_number},
-                                    shown("speed", "rpm", ".2f"),
-                                    shown("speed", "Hz", ".3f").as(""),
-                                    shown("damped_speed", "rpm", ".2f").as("damped"),
-                                    shown("damping_ratio", "", ".5f"),
-                                    shown("whirl"),
-                                    shown("excitation")}) +
+         table_of(found.criticals,
+                  in_both_units<Critical>({{"number", marked_number},
+                                           shown("speed", "rpm", ".2f"),
+                                           shown("speed", "Hz", ".3f").as(""),
+                                           shown("damped_speed", "rpm", ".2f").as("damped"),
+                                           shown("damping_ratio", "", ".5f"),
+                                           shown("whirl"),
+                                           shown("excitation")},
+                                          2)) +
          legend_of(found.criticals);
 }
 
 std::string text_of(const Campbell& diagram) {
   const SomeRows speeds(diagram.speeds.size(), "speeds");
-  TableColumns<std::size_t> frequencies{{"speed [rpm]", [&](std::size_t i) {
-                                           return fmt::format("{:.1f}", diagram.speeds[i] / rpm);
+  TableColumns<std::size_t> frequencies{{shown_heading("speed", "rpm"), [&](std::size_t i) {
+                                           return shown_number(diagram.speeds[i], "rpm", ".1f");
                                          }}};
   TableColumns<std::size_t> decrements = frequencies;
   for (const CampbellBranch& b : diagram.branches) {
     const std::string name = fmt::format("{} {}", frequencies.size(), name_of(b.whirl));
-    frequencies.push_back({name + " [rpm]", [&](std::size_t i) {
-                             return texts::number_text(b.frequency[i] / rpm, ".1f") +
+    frequencies.push_back({shown_heading(name, "rpm"), [&](std::size_t i) {
+                             return shown_number(b.frequency[i], "rpm", ".1f") +
                                     mark_of(b.log_decrement[i]);
                            }});
     decrements.push_back({name, [&](std::size_t i) {

@@ -10,6 +10,7 @@
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/stability_text.hpp"
 
 namespace whirl::inline io {
@@ -71,7 +72,10 @@ double farthest_beyond(double limit, const Scene& scene, const Mat& coordinates)
   return largest;
 }
 
-Notes notes_of(const Model& model, const Scene& scene, const Recording& recording) {
+}  // namespace
+
+Notes motion_notes(const Model& model, const Scene& scene, const Recording& recording) {
+  if (recording.revolutions == 0) return {};
   Notes notes;
   const auto distances =
       largest_distances(model, scene.assembler, scene.displacement_map(), recording.eta);
@@ -106,22 +110,12 @@ Notes notes_of(const Model& model, const Scene& scene, const Recording& recordin
   return notes;
 }
 
-}  // namespace
-
 Notes motion_notes(const Model& model, const Run& run) {
-  if (!run.has_motion()) return {};
-  return notes_of(model, run.scene, run.simulation.recording);
+  return motion_notes(model, run.scene, run.simulation.recording);
 }
 
 Notes motion_notes(const Model& model, const Scene& scene, MotionState start, long revolutions) {
-  if (start.contacts.empty()) {
-    start.contacts = scene.contacts.classify(start.instant(), start.y.data());
-  }
-  const Simulation motion = simulate(
-      scene, std::move(start),
-      {.revolutions = revolutions, .discard = 0, .method = suitable_method(scene.contacts)});
-  if (motion.recording.revolutions == 0) return {};
-  return notes_of(model, scene, motion.recording);
+  return motion_notes(model, scene, recorded_from(scene, std::move(start), revolutions));
 }
 
 Notes motion_notes(const std::vector<FittedMotion>& found) {
@@ -145,7 +139,8 @@ Notes motion_notes(const Model& model, const ResonanceStudy& study) {
     const auto scene = scene_at_speed(model, bouncing.speed);
     for (const std::string& note : motion_notes(there, *scene, {.y = bouncing.cycle.state},
                                                 std::lround(std::ceil(bouncing.turns)))) {
-      all.push_back(fmt::format("bouncing at {:.6g} rpm: {}", bouncing.speed / rpm, note));
+      all.push_back(
+          fmt::format("bouncing at {}: {}", shown_value(bouncing.speed, "rpm", ".6g"), note));
     }
   }
   return all;

@@ -17,8 +17,10 @@
 
 namespace whirl::inline io {
 
-/// Notes on a recorded motion.
+/// Notes on a recorded motion; none without a whole revolution.
 std::vector<std::string> motion_notes(const Model& model, const Run& run);
+std::vector<std::string> motion_notes(const Model& model, const Scene& scene,
+                                      const Recording& recording);
 
 /// Revolutions of a motion that notes are taken from where the motion is not recorded.
 inline constexpr long noted_revolutions = 8;

@@ -15,6 +15,12 @@ std::string contacts_table(const std::vector<ContactMeasure>& contacts, long rev
 /// A line on the reduction, and a warning where its error is above the model's tolerance.
 std::string reduction_text(const Scene& scene, const Model& model);
 
+/// Forces on supports, and heat and moment of friction where something rubs.
+std::string text_of(const MotionLoads& loads);
+
+/// When loads begin [s], and of what the forces before and after are; empty: none begins.
+std::string loads_begin_text(const std::vector<double>& begins);
+
 /// What was integrated, how, at what cost, and what contacts and stations did.
 /// @param stations  station_summaries of the run
 std::string text_of(const Run& run, const Model& model, const RunSummary& summary,

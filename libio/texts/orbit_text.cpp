@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/table.hpp"
 #include "libio/texts/motion_text.hpp"
 #include "libio/texts/probe_text.hpp"
@@ -57,7 +58,7 @@ std::string method_text(const FoundOrbit& orbit) {
 
 std::string multipliers_table(const FoundOrbit& orbit) {
   std::vector<std::string> head{"multiplier", "real",           "imaginary",
-                                "size",       "exponent [1/s]", "frequency [rpm]"};
+                                "size",       "exponent [1/s]", shown_heading("frequency", "rpm")};
   if (!orbit.modes.empty()) head.push_back("most like mode (MAC)");
   Table table(head);
   const CVec& rates = orbit.exponents;
@@ -68,7 +69,7 @@ std::string multipliers_table(const FoundOrbit& orbit) {
                                  fmt::format("{:+.8f}", m.imag()),
                                  fmt::format("{:.8f}", std::abs(m)),
                                  texts::number_text(rates(i).real(), "+.6f"),
-                                 texts::number_text(rates(i).imag() / rpm, ".2f")};
+                                 shown_number(rates(i).imag(), "rpm", ".2f")};
     if (!orbit.modes.empty()) {
       const MultiplierMode& mode = orbit.modes[static_cast<std::size_t>(i)];
       row.push_back(mode.mode > 0 ? fmt::format("{} ({:.2f})", mode.mode, mode.mac) : "-");
@@ -122,10 +123,10 @@ std::string text_of(const RotatingOrbit& orbit) {
                fmt::format("{:+.8f}", m.imag()), fmt::format("{:.8f}", std::abs(m))});
   }
   return fmt::format(
-             "  {} orbit of {:.9g} revolutions, {:.6g} rpm seen from the rotor; residual {:.1e} "
-             "length scales after {} steps of Newton's method\n\n",
+             "  {} orbit of {:.9g} revolutions, {} seen from the rotor; residual {:.1e} length "
+             "scales after {} steps of Newton's method\n\n",
              orbit.is_stable() ? "stable" : "unstable", orbit.revolutions,
-             turn / orbit.period / rpm, orbit.residual, orbit.steps()) +
+             shown_value(turn / orbit.period, "rpm", ".6g"), orbit.residual, orbit.steps()) +
          table.text() + text_of(orbit.probes);
 }
 

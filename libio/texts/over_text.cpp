@@ -7,6 +7,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libfe/assembly/excitations.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 #include "libio/texts/some_rows.hpp"
@@ -17,22 +18,23 @@ namespace {
 
 using ValueColumns = TableColumns<std::size_t>;
 
-std::string shown_value(double value, const ParameterAxis& axis) {
+std::string axis_value(double value, const ParameterAxis& axis) {
   return fmt::format("{:.6g}", value / axis.shown_scale);
 }
 
 /// A column with the values, to which others are added.
 ValueColumns value_column(const OverValues& found, const ParameterAxis& axis) {
-  return {{axis.title(), [&](std::size_t i) { return shown_value(found.values[i], axis); }}};
+  return {{axis.title(), [&](std::size_t i) { return axis_value(found.values[i], axis); }}};
 }
 
-std::string number_at(const Vec& values, std::size_t i, double unit, const char* format) {
-  return texts::number_text(values(static_cast<Eigen::Index>(i)) / unit, format);
+/// @param unit  as of shown_number
+std::string number_at(const Vec& values, std::size_t i, const char* unit, const char* format) {
+  return shown_number(values(static_cast<Eigen::Index>(i)), unit, format);
 }
 
 /// "kxy = 4 MN/m".
 std::string place_text(double value, const ParameterAxis& axis) {
-  return fmt::format("{} = {}{}{}", axis.path, shown_value(value, axis),
+  return fmt::format("{} = {}{}{}", axis.path, axis_value(value, axis),
                      axis.shown_unit.empty() ? "" : " ", axis.shown_unit);
 }
 
@@ -51,17 +53,20 @@ std::string text_of(const ModesOver& found, const ParameterAxis& axis) {
   ValueColumns frequencies = value_column(found, axis), decrements = frequencies;
   for (const ModesOverBranch& b : found.branches) {
     const std::string name = fmt::format("{} {}", frequencies.size(), name_of(b.whirl));
-    frequencies.push_back(
-        {name + " [rpm]", [&](std::size_t i) { return number_at(b.frequency, i, rpm, ".1f"); }});
-    decrements.push_back(
-        {name, [&](std::size_t i) { return number_at(b.log_decrement, i, 1.0, ".4f"); }});
+    frequencies.push_back({shown_heading(name, "rpm"),
+                           [&](std::size_t i) { return number_at(b.frequency, i, "rpm", ".1f"); }});
+    decrements.push_back({name, [&](std::size_t i) {
+                            return texts::number_text(b.log_decrement(static_cast<Eigen::Index>(i)),
+                                                      ".4f");
+                          }});
   }
   std::string text = fmt::format(
       "Damped natural frequencies ({})\n\n{}\nLogarithmic decrements, stable above zero\n\n{}",
       rows.which, table_of(rows.shown, frequencies), table_of(rows.shown, decrements));
   for (const ModesOverThreshold& t : found.thresholds) {
-    text += fmt::format("\n  threshold of instability: {}, where mode {} whirls at {:.2f} rpm\n",
-                        place_text(t.value, axis), t.branch + 1, t.frequency / rpm);
+    text += fmt::format("\n  threshold of instability: {}, where mode {} whirls at {}\n",
+                        place_text(t.value, axis), t.branch + 1,
+                        shown_value(t.frequency, "rpm", ".2f"));
   }
   return text + gaps_text(found.gaps, axis);
 }
@@ -70,10 +75,11 @@ std::string text_of(const CriticalOver& found, const ParameterAxis& axis) {
   const SomeRows rows(found.values.size(), "values");
   ValueColumns undamped = value_column(found, axis), damped = undamped;
   for (const CriticalOverBranch& b : found.branches) {
-    const std::string name = fmt::format("{} {} [rpm]", undamped.size(), name_of(b.whirl));
-    undamped.push_back({name, [&](std::size_t i) { return number_at(b.speed, i, rpm, ".2f"); }});
+    const std::string name =
+        shown_heading(fmt::format("{} {}", undamped.size(), name_of(b.whirl)), "rpm");
+    undamped.push_back({name, [&](std::size_t i) { return number_at(b.speed, i, "rpm", ".2f"); }});
     damped.push_back(
-        {name, [&](std::size_t i) { return number_at(b.damped_speed, i, rpm, ".2f"); }});
+        {name, [&](std::size_t i) { return number_at(b.damped_speed, i, "rpm", ".2f"); }});
   }
   return fmt::format(
              "Undamped critical speeds ({})\n\n{}\nWhere the damped frequency meets the "
@@ -93,8 +99,8 @@ std::string text_of(const UnbalanceOver& found, const ParameterAxis& axis) {
   const SomeRows rows(found.values.size(), "values");
   ValueColumns largest = value_column(found, axis);
   for (const UnbalanceOverStation& s : found.stations) {
-    largest.push_back(
-        {s.station + " [um]", [&](std::size_t i) { return number_at(s.largest, i, 1e-6, ".3f"); }});
+    largest.push_back({shown_heading(s.station, "um"),
+                       [&](std::size_t i) { return number_at(s.largest, i, "um", ".3f"); }});
   }
   std::string text =
       fmt::format("Unbalance response: the largest over all speeds, major semi-axes ({})\n\n{}",
@@ -118,12 +124,14 @@ std::string text_of(const UnbalanceOver& found, const ParameterAxis& axis) {
   using Peak = const UnbalanceOverPeak*;
   if (!peaks.empty()) {
     text += "\nPeaks of the largest response\n\n" +
-            table_of(peaks,
-                     {{axis.title(), [&](Peak p) { return shown_value(p->value, axis); }},
-                      {"peak [rpm]", [](Peak p) { return fmt::format("{:.1f}", p->speed / rpm); }},
-                      {"[um]", [](Peak p) { return fmt::format("{:.3f}", 1e6 * p->amplitude); }},
-                      {"amplification",
-                       [](Peak p) { return texts::number_text(p->amplification(), ".4g"); }}});
+            table_of(peaks, {{axis.title(), [&](Peak p) { return axis_value(p->value, axis); }},
+                             {shown_heading("peak", "rpm"),
+                              [](Peak p) { return shown_number(p->speed, "rpm", ".1f"); }},
+                             {shown_heading("", "um"),
+                              [](Peak p) { return shown_number(p->amplitude, "um", ".3f"); }},
+                             {"amplification", [](Peak p) {
+                                return texts::number_text(p->amplification(), ".4g");
+                              }}});
   }
   return text + gaps_text(found.gaps, axis);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/units.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -30,23 +31,23 @@ std::string angle_text(const ProbeLabel& probe) {
 }
 
 std::string reading_text(double reading, const ProbeLabel& probe) {
+  if (probe.unit == Probe{}.unit) return shown_value(reading, probe.unit, ".4g");
   return fmt::format("{:.4g} {}", reading / *parse_as("1 " + probe.unit, "m"), probe.unit);
 }
 
 std::string text_of(const std::vector<ProbeResponse>& probes) {
   if (probes.empty()) return "";
   const std::string largest = table_of(
-      probes,
-      {shown("name").as("probe"),
-       {"angle [deg]", angle_text},
-       {"largest",
-        [](const ProbeResponse& p) { return reading_text(p.largest.peak_to_peak(), p); }},
-       {"at [rpm]",
-        [](const ProbeResponse& p) { return fmt::format("{:.1f}", p.largest.speed / rpm); }},
-       {"at the highest speed", [](const ProbeResponse& p) {
-          const Vec size = p.peak_to_peak();
-          return reading_text(size(size.size() - 1), p);
-        }}});
+      probes, {shown("name").as("probe"),
+               {"angle [deg]", angle_text},
+               {"largest",
+                [](const ProbeResponse& p) { return reading_text(p.largest.peak_to_peak(), p); }},
+               {shown_heading("at", "rpm"),
+                [](const ProbeResponse& p) { return shown_number(p.largest.speed, "rpm", ".1f"); }},
+               {"at the highest speed", [](const ProbeResponse& p) {
+                  const Vec size = p.peak_to_peak();
+                  return reading_text(size(size.size() - 1), p);
+                }}});
   std::vector<PeakLine> lines;
   for (const ProbeResponse& probe : probes) {
     for (const ProbePeak& peak : probe.peaks) lines.push_back({&probe, &peak});
@@ -57,8 +58,8 @@ std::string text_of(const std::vector<ProbeResponse>& probes) {
          table_of(
              lines,
              {{"probe", [](const PeakLine& l) { return l.probe->name; }},
-              {"peak [rpm]",
-               [](const PeakLine& l) { return fmt::format("{:.1f}", l.peak->speed / rpm); }},
+              {shown_heading("peak", "rpm"),
+               [](const PeakLine& l) { return shown_number(l.peak->speed, "rpm", ".1f"); }},
               {"peak to peak",
                [](const PeakLine& l) { return reading_text(l.peak->peak_to_peak(), *l.probe); }},
               {"amplification", amplification_text}});
@@ -83,9 +84,9 @@ std::string text_of(const std::vector<ForcedReading>& readings, const std::vecto
                   {{"force", [](const ForcedReading& f) { return force_text(f); }},
                    shown("name").as("probe"),
                    {"largest", [=](const ForcedReading& f) { return text_at(f, top(f)); }},
-                   {"at [rpm]",
+                   {shown_heading("at", "rpm"),
                     [=, &speeds](const ForcedReading& f) {
-                      return fmt::format("{:.1f}", speeds[static_cast<std::size_t>(top(f))] / rpm);
+                      return shown_number(speeds[static_cast<std::size_t>(top(f))], "rpm", ".1f");
                     }},
                    {"at the highest speed",
                     [=](const ForcedReading& f) { return text_at(f, f.amplitude.size() - 1); }}});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -28,12 +29,13 @@ std::string bouncing_text(const ResonancePlace& place) {
   const std::optional<Bouncing>& b = place.bouncing;
   if (!place.is_confirmed) return "not looked for";
   if (!b) return "none found";
-  return fmt::format("{} at {:.1f} rpm, {:.4f} revolutions", b->is_stable() ? "stable" : "unstable",
-                     b->speed / rpm, b->turns);
+  return fmt::format("{} at {}, {:.4f} revolutions", b->is_stable() ? "stable" : "unstable",
+                     shown_value(b->speed, "rpm", ".1f"), b->turns);
 }
 
 std::string seen_from_rotor(const ResonancePlace& r) {
-  return fmt::format("{:.1f}, {:.1f}", r.p * r.frequency / rpm, r.q * r.frequency / rpm);
+  return fmt::format("{}, {}", shown_number(r.p * r.frequency, "rpm", ".1f"),
+                     shown_number(r.q * r.frequency, "rpm", ".1f"));
 }
 
 }  // namespace
@@ -49,7 +51,7 @@ std::string text_of(const ResonanceStudy& study) {
       {"ratio", [](const ResonancePlace& r) { return fmt::format("{}:{}", r.p, r.q); }},
       {"faster mode", [&](const ResonancePlace& r) { return branch(r.fast); }},
       {"slower mode", [&](const ResonancePlace& r) { return branch(r.slow); }},
-      {"seen from the rotor [rpm]", seen_from_rotor}};
+      {shown_heading("seen from the rotor", "rpm"), seen_from_rotor}};
   const std::vector<ContactOrbits>& contacts = study.places.front().contacts;
   if (!contacts.empty()) columns.push_back({"at the contacts", sizes_text});
   if (study.is_confirmed) columns.push_back({"bouncing", bouncing_text});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
@@ -37,6 +38,11 @@ NumberStyle style_of(const Shown& shown, std::string_view si_unit) {
     style.unit = shown.unit;
     style.divisor = *one;
   }
+  if (!style.unit.empty() && shown_units().choice(si_unit)) {
+    const ShownUnit to = shown_unit(style.unit);
+    style.format = format_for(style.format, to.size / style.divisor);
+    style.unit = to.name, style.divisor = to.size;
+  }
   return style;
 }
 
@@ -46,16 +52,7 @@ std::string heading_of(const Shown& shown, const NumberStyle& style) {
 }
 
 std::string number_text(double value, std::string_view format) {
-  constexpr double largest = 1e9;  // beyond it digits behind the point say nothing
-  if (std::isnan(value)) return "-";
-  if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";
-  if (std::abs(value) >= largest && format.ends_with('f')) {
-    return fmt::format(fmt::runtime(format.starts_with('+') ? "{:+.4g}" : "{:.4g}"), value);
-  }
-  std::string text = fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), value);
-  const bool is_zero = text.find_first_of("123456789ni") == std::string::npos;
-  if (!is_zero || !text.starts_with('-')) return text;
-  return (format.starts_with('+') ? "+" : "") + text.substr(1);
+  return format_number(value, format);
 }
 
 std::string number_text(double value, const NumberStyle& style) {

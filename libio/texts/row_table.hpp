@@ -18,6 +18,7 @@
 #include "libbase/structs/column.hpp"
 #include "libbase/structs/field.hpp"
 #include "libio/results/cells.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl::inline io {
@@ -129,6 +130,16 @@ struct TableColumn {
 
 template <class Row>
 using TableColumns = std::vector<TableColumn<Row>>;
+
+/// Columns without the one of frequencies in Hz where those in rpm are shown in the same unit.
+/// @param in_hertz  number of that column, from 0
+template <class Row>
+TableColumns<Row> in_both_units(TableColumns<Row> columns, std::size_t in_hertz) {
+  if (shown_unit("rpm").name == shown_unit("Hz").name) {
+    columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(in_hertz));
+  }
+  return columns;
+}
 
 /// The table of a list of rows.
 template <class Rows>

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/text/table.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -70,7 +71,8 @@ std::string text_of(const RunningModes& found) {
       found.channels.size(), found.channels.size() == 1 ? "" : "s", found.duration, found.rate,
       found.most_order);
   if (found.harmonics > 0) {
-    text += fmt::format(", {} harmonics of {:.5g} rpm {}", found.harmonics, found.speed / rpm,
+    text += fmt::format(", {} harmonics of {} {}", found.harmonics,
+                        shown_value(found.speed, "rpm", ".5g"),
                         found.are_harmonics_removed ? "removed" : "marked");
   }
   text += "\n\n";
@@ -84,7 +86,7 @@ std::string text_of(const RunningModes& found) {
       table_of(found.modes,
                TableColumns<Mode>{
                    row_number("mode"),
-                   {"frequency [Hz]",
+                   {shown_heading("frequency", "Hz"),
                     [](const Mode& m) {
                       return with_deviation(m.frequency(), m.frequency_deviation, hertz, ".4f");
                     }},
@@ -94,10 +96,10 @@ std::string text_of(const RunningModes& found) {
                       return with_deviation(m.damping_ratio(), m.damping_deviation, 0.01, ".2f");
                     }},
                    shown("log_decrement", "", ".3f").as("log decrement"),
-                   {"decomposition [Hz]",
+                   {shown_heading("decomposition", "Hz"),
                     [&](const Mode& m) {
                       const DecomposedMode* peak = found.peak_of(m);
-                      return peak ? texts::number_text(peak->frequency() / hertz, ".4f") : "-";
+                      return peak ? shown_number(peak->frequency(), "Hz", ".4f") : "-";
                     }},
                    {"its damping [%]",
                     [&](const Mode& m) {

@@ -8,6 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline io {
 
@@ -33,7 +34,7 @@ std::vector<std::string> unstable_notes(const Assembler& assembler, std::vector<
   for (const double Omega : speeds) {
     try {
       if (!is_unstable(complex_modes(assembler, Omega, looked_at))) continue;
-      unstable.push_back(fmt::format("{:.0f} rpm", Omega / rpm));
+      unstable.push_back(shown_value(Omega, "rpm", ".0f"));
     } catch (const NumericalError&) {  // films carry nothing without speed
     }
   }
@@ -52,7 +53,7 @@ std::vector<std::string> unstable_notes(const Campbell& diagram) {
         std::find_if(decrement.begin(), decrement.end(), [](double d) { return std::isfinite(d); });
     if (first == decrement.end() || *first > growing_decrement) continue;
     const double speed = diagram.speeds[static_cast<std::size_t>(first - decrement.begin())];
-    growing.push_back(fmt::format("mode {} from {:.0f} rpm", i + 1, speed / rpm));
+    growing.push_back(fmt::format("mode {} from {}", i + 1, shown_value(speed, "rpm", ".0f")));
   }
   if (growing.empty()) return {};
   return {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -10,27 +12,43 @@ namespace whirl::inline io {
 
 namespace {
 
+/// Where the nominal stresses are largest.
+std::string stress_text(const BendingLine& line) {
+  if (line.bending_stress.size() == 0) return "";
+  Eigen::Index bent = 0, sheared = 0;
+  line.bending_stress.maxCoeff(&bent);
+  line.shear_stress.maxCoeff(&sheared);
+  return fmt::format(
+      "  Nominal stresses are at most {} by bending at z = {}, {} by shear at z = {}; steps and\n"
+      "  keyways raise them.\n",
+      format_engineering(line.bending_stress(bent), "Pa"), shown_value(line.z(bent), "mm", ".1f"),
+      format_engineering(line.shear_stress(sheared), "Pa"),
+      shown_value(line.z(sheared), "mm", ".1f"));
+}
+
 std::string bending_text(const BendingLine& line) {
   if (line.moment.isZero(0.0)) return "";  // no weight, or no shaft
   Eigen::Index largest = 0, lowest = 0;
   line.moment.rowwise().norm().maxCoeff(&largest);
   line.deflection.rowwise().norm().maxCoeff(&lowest);
-  return fmt::format(
-      "  The shaft bends most at z = {:.1f} mm, by {:.4g} N.m, and sags most at z = {:.1f} mm, by "
-      "{} um.\n",
-      1e3 * line.z(largest), line.moment.row(largest).norm(), 1e3 * line.z(lowest),
-      texts::number_text(1e6 * line.deflection.row(lowest).norm(), ".3f"));
+  return fmt::format("  The shaft bends most at z = {}, by {}, and sags most at z = {}, by {}.\n",
+                     shown_value(line.z(largest), "mm", ".1f"),
+                     shown_value(line.moment.row(largest).norm(), "N.m", ".4g"),
+                     shown_value(line.z(lowest), "mm", ".1f"),
+                     shown_value(line.deflection.row(lowest).norm(), "um", ".3f")) +
+         stress_text(line);
 }
 
 std::string films_text(const std::vector<RunningFilm>& films, double speed) {
   if (films.empty()) return "";
   const auto part = [](const char* name, const char* unit, Mat2 RunningFilm::*of, int i, int j) {
-    return TableColumn<RunningFilm>(
-        fmt::format("{} [{}]", name, unit),
-        [of, i, j](const RunningFilm& f) { return texts::number_text((f.*of)(i, j), ".5g"); });
+    return TableColumn<RunningFilm>(shown_heading(name, unit),
+                                    [of, unit, i, j](const RunningFilm& f) {
+                                      return shown_number((f.*of)(i, j), unit, ".5g");
+                                    });
   };
   const auto K = &RunningFilm::stiffness, C = &RunningFilm::damping;
-  return fmt::format("\nJournals on their oil films at {:.6g} rpm\n\n", speed / rpm) +
+  return fmt::format("\nJournals on their oil films at {}\n\n", shown_value(speed, "rpm", ".6g")) +
          table_of(films,
                   {shown("name").as("oil film"), shown("eccentricity", "", ".5f"),
                    shown("attitude_deg", "", ".3f").as("attitude [deg]"),
@@ -57,9 +75,9 @@ std::string text_of(const StaticStudy& study) {
   }
   text +=
       "\n" + table_of(study.stations, {{"station", [](const RestingStation& s) { return s.label; }},
-                                       {"z [mm]",
+                                       {shown_heading("z", "mm"),
                                         [](const RestingStation& s) {
-                                          return s.node ? fmt::format("{:.1f}", 1e3 * s.z) : "";
+                                          return s.node ? shown_number(s.z, "mm", ".1f") : "";
                                         }},
                                        shown("x", "um", ".3f"),
                                        shown("y", "um", ".3f")});
@@ -68,6 +86,11 @@ std::string text_of(const StaticStudy& study) {
     text += "\n" + table_of(study.at_rest.bearings,
                             {shown("bearing"), shown("fx", "N", ".4f").as("load x"),
                              shown("fy", "N", ".4f").as("load y")});
+  }
+  if (!study.at_rest.links.empty()) {
+    text +=
+        "\n" + table_of(study.at_rest.links, {shown("link"), shown("fx", "N", ".4f").as("load x"),
+                                              shown("fy", "N", ".4f").as("load y")});
   }
   text += films_text(study.on_films.films, study.speed);
   return text + "\n  A load is the force of the rotor on its bearing; y points up.\n" +

@@ -7,6 +7,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/structs/names.hpp"
+#include "libio/text/format.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -104,51 +105,68 @@ std::string way_text(const SweepWay& way, const ParameterAxis& axis) {
          touch_text(way, axis);
 }
 
-/// Where along a sweep a probe reads most, peak to peak; of one way or both.
-struct LargestReading {
-  ProbeLabel probe{};
-  double peak_to_peak = nan;  ///< [m]; NaN: nothing is known of it
-  std::size_t index = 0;      ///< of the value
+/// The largest of a number along a sweep; of one way or both.
+struct LargestAlong {
+  std::size_t of = 0;     ///< number of the probe, or of the support
+  double value = nan;     ///< NaN: nothing is known of it
+  std::size_t index = 0;  ///< of the value of the parameter
   std::string way{};
 };
 
-std::vector<LargestReading> largest_readings(const SweepResult& sweep) {
-  std::vector<LargestReading> all;
+/// The largest of each of `count` numbers of the portraits.
+std::vector<LargestAlong> largest_along(const SweepResult& sweep, Vec Portrait::*numbers,
+                                        std::size_t count) {
+  std::vector<LargestAlong> all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back({.of = i});
   const std::vector<std::string> ways = sweep.ways();
   const std::size_t values = sweep.points.size() / ways.size();
-  for (std::size_t i = 0; i < sweep.probes.size(); ++i) {
-    LargestReading most{sweep.probes[i]};
-    for (std::size_t k = 0; k < sweep.points.size(); ++k) {
-      const Vec size = sweep.points[k].value_or(SweepPoint{}).portrait.probe_peak_to_peak;
-      const auto row = static_cast<Eigen::Index>(i);
-      if (row >= size.size() || !std::isfinite(size(row)) || size(row) <= most.peak_to_peak) {
-        continue;
-      }
-      most.peak_to_peak = size(row);
-      most.index = k % values;
-      most.way = ways[k / values];
+  for (std::size_t k = 0; k < sweep.points.size(); ++k) {
+    const auto point = sweep.points[k];
+    if (!point) continue;
+    const Vec& known = point->portrait.*numbers;
+    for (LargestAlong& most : all) {
+      const auto row = static_cast<Eigen::Index>(most.of);
+      if (row >= known.size() || !std::isfinite(known(row)) || known(row) <= most.value) continue;
+      most = {most.of, known(row), k % values, ways[k / values]};
     }
-    all.push_back(std::move(most));
   }
   return all;
 }
 
+/// The columns that say where the largest numbers are.
+void add_places(const ParameterAxis& axis, TableColumns<LargestAlong>& columns) {
+  columns.push_back({"at " + axis.title(), [&axis](const LargestAlong& l) {
+                       return std::isfinite(l.value) ? fmt::format("{:.7g}", axis.shown(l.index))
+                                                     : "-";
+                     }});
+  columns.push_back({"on the way", [](const LargestAlong& l) { return l.way; }});
+}
+
 std::string probes_text(const SweepResult& sweep, const ParameterAxis& axis) {
   if (sweep.probes.size() == 0 || sweep.spectrum_revolutions == 0) return "";
-  const auto is_known = [](const LargestReading& r) { return std::isfinite(r.peak_to_peak); };
+  const auto probe = [&](const LargestAlong& l) { return sweep.probes[l.of]; };
+  TableColumns<LargestAlong> columns{
+      {"probe", [=](const LargestAlong& l) { return probe(l).name; }},
+      {"angle [deg]", [=](const LargestAlong& l) { return angle_text(probe(l)); }},
+      {"largest", [=](const LargestAlong& l) {
+         return std::isfinite(l.value) ? reading_text(l.value, probe(l)) : "-";
+       }}};
+  add_places(axis, columns);
   return "\n  Along the probes, peak to peak\n" +
-         table_of(largest_readings(sweep),
-                  {{"probe", [](const LargestReading& r) { return r.probe.name; }},
-                   {"angle [deg]", [](const LargestReading& r) { return angle_text(r.probe); }},
-                   {"largest",
-                    [=](const LargestReading& r) {
-                      return is_known(r) ? reading_text(r.peak_to_peak, r.probe) : "-";
-                    }},
-                   {"at " + axis.title(),
-                    [=, &axis](const LargestReading& r) {
-                      return is_known(r) ? fmt::format("{:.7g}", axis.shown(r.index)) : "-";
-                    }},
-                   {"on the way", [](const LargestReading& r) { return r.way; }}});
+         table_of(largest_along(sweep, &Portrait::probe_peak_to_peak, sweep.probes.size()),
+                  columns);
+}
+
+std::string supports_text(const SweepResult& sweep, const ParameterAxis& axis) {
+  if (sweep.leaves_out("support")) return "";
+  TableColumns<LargestAlong> columns{
+      {"support", [&](const LargestAlong& l) { return sweep.supports[l.of]; }},
+      {"largest force", [](const LargestAlong& l) {
+         return std::isfinite(l.value) ? format_engineering(l.value, "N") : "-";
+       }}};
+  add_places(axis, columns);
+  return "\n  Forces on supports\n" +
+         table_of(largest_along(sweep, &Portrait::support_largest, sweep.supports.size()), columns);
 }
 
 }  // namespace
@@ -156,10 +174,11 @@ std::string probes_text(const SweepResult& sweep, const ParameterAxis& axis) {
 std::string text_of(const SweepResult& sweep, const ParameterAxis& axis) {
   if (sweep.start == SweepStart::fresh) {
     return "\n  every value from the start of the model\n" + way_text({sweep, axis.values}, axis) +
-           probes_text(sweep, axis);
+           probes_text(sweep, axis) + supports_text(sweep, axis);
   }
   return "\n  up\n" + way_text({sweep, axis.values}, axis) + "\n  down\n" +
-         way_text({sweep, axis.values, 1}, axis) + probes_text(sweep, axis);
+         way_text({sweep, axis.values, 1}, axis) + probes_text(sweep, axis) +
+         supports_text(sweep, axis);
 }
 
 }  // namespace whirl::inline io

@@ -6,6 +6,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libio/text/parameter_axis.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -16,12 +17,11 @@ constexpr std::size_t most_rows = 25;  ///< of the table of circles, and the las
 
 std::string circle_text(const TorusResult& t) {
   return fmt::format(
-      "  {} circle of {} harmonics, residual {:.1e} length scales, highest harmonics {:.0e} of "
-      "the largest\n  it turns by {:.9f} in a revolution: lines {:.4f} rpm and multiples beside "
-      "those of the speed\n  largest exponent across it {:+.6f} per revolution, along it "
-      "{:+.0e}\n",
+      "  {} circle of {} harmonics, residual {:.1e} length scales, highest harmonics {:.0e} of the "
+      "largest\n  it turns by {:.9f} in a revolution: lines {} and multiples beside those of the "
+      "speed\n  largest exponent across it {:+.6f} per revolution, along it {:+.0e}\n",
       t.stability == 1 ? "stable" : "unstable", t.harmonics, t.residual, t.tail, t.rotation,
-      t.frequency / rpm, t.exponents(0), t.along);
+      shown_value(t.frequency, "rpm", ".4f"), t.exponents(0), t.along);
 }
 
 std::string walks_text(const TorusResult& t) {

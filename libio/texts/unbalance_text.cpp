@@ -8,6 +8,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/assembly/excitations.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -19,9 +20,10 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : std::string("-");
 }
 
-/// A peak's margin to the operating speed.
+/// A peak's margin to the operating speeds.
 std::string margin_text(const StationPeak& peak) {
   if (!peak.separation) return "-";
+  if (peak.separation->actual == 0.0) return "none, within";
   return fmt::format("{} {}", percent(peak.separation->actual), *peak.side());
 }
 
@@ -44,14 +46,19 @@ std::string peaks_text(const UnbalanceStudy& study, const Model& model) {
   };
   const bool is_told = std::all_of(study.peaks.begin(), study.peaks.end(),
                                    [](const auto& p) { return std::isfinite(p.amplification()); });
-  const std::string margin = model.has_speed && model.speed > 0.0
-                                 ? fmt::format("margin to {:.6g} rpm", model.speed / rpm)
-                                 : "margin";
+  const MachineSpeeds& machine = model.machine;
+  const std::string margin =
+      machine.minimum > 0.0 && machine.maximum > 0.0
+          ? fmt::format("margin to {} to {}", shown_number(machine.minimum, "rpm", ".6g"),
+                        shown_value(machine.maximum, "rpm", ".6g"))
+      : model.has_speed && model.speed > 0.0
+          ? fmt::format("margin to {}", shown_value(model.speed, "rpm", ".6g"))
+          : "margin";
   return "\nPeaks of the largest response: amplification factors and separation margins after API "
          "617\n\n" +
          table_of(study.peaks, {shown("speed", "rpm", ".1f").as("peak"),
                                 {"largest at", place},
-                                shown("amplitude", "um", ".3f").as(""),
+                                shown("amplitude", "um", ".3f").as("amplitude"),
                                 {"amplification", factor},
                                 {margin, margin_text},
                                 {"required", required_text}}) +
@@ -61,9 +68,10 @@ std::string peaks_text(const UnbalanceStudy& study, const Model& model) {
 }
 
 std::string range_text(const std::vector<double>& speeds) {
-  if (speeds.size() == 1) return fmt::format("at {:.6g} rpm", speeds[0] / rpm);
-  return fmt::format("{} speeds from {:.6g} to {:.6g} rpm", speeds.size(), speeds.front() / rpm,
-                     speeds.back() / rpm);
+  if (speeds.size() == 1) return fmt::format("at {}", shown_value(speeds[0], "rpm", ".6g"));
+  return fmt::format("{} speeds from {} to {}", speeds.size(),
+                     shown_number(speeds.front(), "rpm", ".6g"),
+                     shown_value(speeds.back(), "rpm", ".6g"));
 }
 
 /// Largest responses to forces of other frequencies; a dash where they are not bounded.
@@ -81,37 +89,51 @@ std::string forced_text(const UnbalanceStudy& study) {
   const auto speed = [&](const ForcedResponse& f) {
     Eigen::Index at = 0;
     largest(f, &at);
-    return fmt::format("{:.1f}", study.speeds[static_cast<std::size_t>(at)] / rpm);
+    return shown_number(study.speeds[static_cast<std::size_t>(at)], "rpm", ".1f");
   };
   return "\nResponse to forces of other frequencies, at these speeds (major semi-axes)\n\n" +
          table_of(study.forced, {{"force", [](const ForcedResponse& f) { return force_text(f); }},
                                  shown("station"),
-                                 {"largest [um]",
+                                 {shown_heading("largest", "um"),
                                   [&](const ForcedResponse& f) {
-                                    return fmt::format("{:.3f}", 1e6 * largest(f, nullptr));
+                                    return shown_number(largest(f, nullptr), "um", ".3f");
                                   }},
-                                 {"at [rpm]", speed},
-                                 {"at the highest speed [um]",
+                                 {shown_heading("at", "rpm"), speed},
+                                 {shown_heading("at the highest speed", "um"),
                                   [](const ForcedResponse& f) {
-                                    return texts::number_text(1e6 * f.major(f.major.size() - 1),
-                                                              ".3f");
+                                    return shown_number(f.major(f.major.size() - 1), "um", ".3f");
                                   }}}) +
          text_of(study.forced_probes, study.speeds);
+}
+
+/// Forces on bearings, seals, links and oil films.
+std::string bearings_text(const UnbalanceStudy& study) {
+  if (study.bearings.empty()) return "";
+  return "\nForces of the rotor on its supports (largest in a period, without the weight)\n\n" +
+         table_of(study.bearings,
+                  {shown("name").as("support"),
+                   shown("kind").as(""),
+                   shown("largest", "N", ".4g"),
+                   shown("largest_at", "rpm", ".1f").as("at"),
+                   {shown_heading("at the highest speed", "N"), [](const BearingResponse& b) {
+                      return shown_number(b.force()(b.x.size() - 1), "N", ".4g");
+                    }}});
 }
 
 /// A clearance that the response goes beyond.
 std::string beyond_text(const ClearanceUse& use) {
   std::string ranges;
   for (const SpeedRange& range : use.beyond) {
-    ranges += fmt::format("{}{:.1f} to {:.1f}", ranges.empty() ? "" : ", ", range.first / rpm,
-                          range.last / rpm);
+    ranges +=
+        fmt::format("{}{} to {}", ranges.empty() ? "" : ", ",
+                    shown_number(range.first, "rpm", ".1f"), shown_value(range.last, "rpm", ".1f"));
   }
   return fmt::format(
-      "the response goes beyond the clearance of {} ({:.4g} mm) at {} rpm, up to {:.4g} mm, "
-      "{:.3g} times the clearance, at {:.1f} rpm: there it touches, and this response is not its "
-      "motion",
-      use.name, 1e3 * use.clearance, ranges, 1e3 * use.largest, use.largest / use.clearance,
-      use.at / rpm);
+      "the response goes beyond the clearance of {} ({}) at {}, up to {}, {:.3g} times the "
+      "clearance, at {}: there it touches, and this response is not its motion",
+      use.name, shown_value(use.clearance, "mm", ".4g"), ranges,
+      shown_value(use.largest, "mm", ".4g"), use.largest / use.clearance,
+      shown_value(use.at, "rpm", ".1f"));
 }
 
 }  // namespace
@@ -121,18 +143,22 @@ std::string text_of(const UnbalanceStudy& study, const Model& model) {
     return study.largest[static_cast<std::size_t>(number) - 1];
   };
   const std::string stations = table_of(
-      study.stations,
-      {shown("station"),
-       {"largest [um]", [&](const StationResponse&,
-                            int i) { return fmt::format("{:.3f}", 1e6 * largest(i).amplitude); }},
-       {"at [rpm]", [&](const StationResponse&,
-                        int i) { return fmt::format("{:.1f}", largest(i).speed / rpm); }},
-       {"at the highest speed [um]", [](const StationResponse& s) {
-          return fmt::format("{:.3f}", 1e6 * s.major(s.major.size() - 1));
-        }}});
+      study.stations, {shown("station"),
+                       {shown_heading("largest", "um"),
+                        [&](const StationResponse&, int i) {
+                          return shown_number(largest(i).amplitude, "um", ".3f");
+                        }},
+                       {shown_heading("at", "rpm"),
+                        [&](const StationResponse&, int i) {
+                          return shown_number(largest(i).speed, "rpm", ".1f");
+                        }},
+                       {shown_heading("at the highest speed", "um"), [](const StationResponse& s) {
+                          return shown_number(s.major(s.major.size() - 1), "um", ".3f");
+                        }}});
   return fmt::format(
-      "Unbalance response, {} (major semi-axes)\n\n{}{}{}{}{}", range_text(study.speeds), stations,
-      peaks_text(study, model), text_of(study.probes),
+      "Unbalance response, {} (major semi-axes, zero to peak)\n\n{}{}{}{}{}{}",
+      range_text(study.speeds), stations, peaks_text(study, model), text_of(study.probes),
+      bearings_text(study),
       has_synchronous_load(model.structure) ? "" : "\n  The model has no unbalance.\n",
       forced_text(study));
 }
@@ -143,8 +169,8 @@ std::vector<std::string> notes_of(const UnbalanceStudy& study) {
     if (!use.beyond.empty()) notes.push_back(beyond_text(use));
   }
   for (const double Omega : study.unbounded) {
-    notes.push_back(fmt::format(
-        "the response is unbounded at {:.2f} rpm, a resonance without damping", Omega / rpm));
+    notes.push_back(fmt::format("the response is unbounded at {}, a resonance without damping",
+                                shown_value(Omega, "rpm", ".2f")));
   }
   if (!study.forced.empty() && !study.clearances.empty()) {
     notes.push_back(

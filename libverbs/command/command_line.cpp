@@ -85,7 +85,13 @@ std::string misplaced(const CLI::App& app, const std::vector<std::string>& words
   }
   if (const auto unknown = unknown_option(std::span(words).subspan(2), known)) return *unknown;
   if (app.remaining().empty()) return error.what();
-  return fmt::format("cannot place \"{}\"", fmt::join(app.remaining(), " "));
+  const std::string problem = fmt::format("cannot place \"{}\"", fmt::join(app.remaining(), " "));
+  // "whirl orbit plot MODEL"
+  if (words.size() < 3 || words[2] != "plot") return problem;
+  const std::string_view motion = words[1] == "orbit" ? "simulate" : std::string_view(words[1]);
+  return problem +
+         fmt::format("; a picture is `whirl {} MODEL --out r.h5`, then `whirl plot r.h5 {}`",
+                     motion, words[1]);
 }
 
 /// Sorts what was given into a command line.

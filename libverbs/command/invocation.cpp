@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "libio/model/model_file.hpp"
+#include "libio/model/report_words.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/output_lock.hpp"
 #include "libio/text/files_in_use.hpp"
 #include "libio/text/interrupt.hpp"
 #include "libio/text/parameter_axis.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libverbs/command/arithmetic.hpp"
 #include "libverbs/command/verb.hpp"
 #include "libverbs/command/version.hpp"
@@ -27,6 +30,21 @@ std::string Invocation::text(std::string_view option) const {
   return all.empty() ? "" : all.back();
 }
 
+void Invocation::adopt_units(const std::string& model) const {
+  const char* usual = std::getenv("WHIRL_UNITS");
+  std::string list = usual ? usual : "";
+  const bool has_table = model.find("[report]") != std::string::npos;
+  const std::string of_model = has_table ? report_words(model).units : "";
+  if (!of_model.empty()) list = of_model;
+  if (output.units) list = *output.units;
+  const auto units = ShownUnits::named(list, model);
+  if (!units && output.units) throw output.units.wrong(units.problem);
+  if (!units) {
+    throw ModelError({of_model.empty() ? "WHIRL_UNITS=" + list : file}, "units", units.problem);
+  }
+  show_in(*units);
+}
+
 Model Invocation::model() const {
   const auto stored = NamedFiles::of_sets_in(std::filesystem::path(file).parent_path());
   if (made) return *made;
@@ -34,8 +52,17 @@ Model Invocation::model() const {
   Model model =
       model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets, stored);
   require_said_start(model);
+  adopt_units(model.source);
   if (ranks) ranks->share([&] { return model.source; });
   return model;
+}
+
+Model Invocation::variant(const std::vector<std::string>& more) const {
+  const auto stored = NamedFiles::of_sets_in(std::filesystem::path(file).parent_path());
+  if (made) return parse_model(made->source, file, more, stored);
+  std::vector<std::string> all = sets;
+  all.insert(all.end(), more.begin(), more.end());
+  return model_text.empty() ? read_model(file, all) : parse_model(model_text, file, all, stored);
 }
 
 void Invocation::require_said_start(const Model& model) const {
@@ -155,6 +182,7 @@ std::unique_ptr<ResultWriter> Invocation::saved_file(const Model& model) const {
 
 void Invocation::prepare() {
   output = read_options<OutputOptions>(given);
+  adopt_units("");
   if (!ranks) adopt_arithmetic(text("isa"));  // ranks have agreed on one
   note_read_files();
   note_written_files();

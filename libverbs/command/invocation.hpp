@@ -47,9 +47,14 @@ struct OutputOptions {
   Option<std::string> json = json_option();
   Option<long> threads{"threads", "N", "processors to use at most; left out: all that it may use",
                        Whole{1, 1024}};
+  Option<std::string> units{
+      "units", "LIST",
+      "that numbers are shown in: us, si, cgs, file (the model's), none, or units such as "
+      "rad/s,kN; "
+      "left out: the model's [report] units, or WHIRL_UNITS, else si; files and JSON are SI"};
   Flag force{"force", "replace files that whirl did not write, too"};
   Flag quiet = quiet_flag();
-  auto fields() { return std::tie(out, json, threads, force, quiet); }
+  auto fields() { return std::tie(out, json, threads, units, force, quiet); }
 };
 
 /// What a call is given, by a command line or a program.
@@ -89,6 +94,9 @@ class Invocation : public CallInput {
   /// @throws ModelError, FileError  if it cannot be read, or is stored and starts from another file
   Model model() const;
 
+  /// The same model with more PATH=VALUE lines, read once more.
+  Model variant(const std::vector<std::string>& more) const;
+
   /// The parts of this call, to be stored in results.
   Call parts() const;
 
@@ -120,6 +128,10 @@ class Invocation : public CallInput {
   void prepare();
   /// A function that tells whether to stop. Without is_stopped, Ctrl-C asks to stop from now on.
   std::function<bool()> stop_asked() const;
+  /// Shows numbers in the units that this call asks for, else in those of WHIRL_UNITS.
+  /// @param model  text of the model that is shown
+  /// @throws ModelError  for units that are not known
+  void adopt_units(const std::string& model) const;
 
  private:
   /// Checks that a stored model opens no file by itself.

@@ -96,7 +96,8 @@ struct StepVerbOptions {
 
 // of results
 inline Option<std::string> frequency_option() {
-  return {"frequency", "U", "unit of frequency axes: Hz, cpm or rad/s", "Hz"};
+  return {"frequency", "U",
+          "unit of frequency axes: Hz, cpm or rad/s; left out: as --units says, else Hz", "Hz"};
 }
 
 /// Which stretch of a motion is shown.

@@ -4,10 +4,14 @@
 #include <optional>
 #include <string>
 
+#include "libdata/measured/order_model.hpp"
 #include "libdata/measured/order_tracking.hpp"
+#include "libdata/measured/trend.hpp"
+#include "libdata/measured/zones.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libio/measured/measurement.hpp"
 #include "libio/measured/record_values.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/option.hpp"
 #include "libverbs/command/invocation.hpp"
 #include "libverbs/options/common.hpp"
@@ -21,8 +25,9 @@ struct RecordVerbOptions {
       "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .ufb, .h5, "
       ".lvm, .tdms");
   Option<std::string> probes =
-      file_option("probes", "FILE.toml",
-                  "which channels of it are which probes; left out: those of the model, by their "
+      file_option("probes", "FILE",
+                  "which channels of it are which probes: .toml, or a table, .csv or .xlsx; left "
+                  "out: those of the model, by their "
                   "names");
   Option<double> rate{"rate", "R", "samples per second, where the record does not say it",
                       parse_sampling_rate};
@@ -32,9 +37,8 @@ struct RecordVerbOptions {
 /// The record of a call.
 RecordSource source_of(const Invocation& call, const RecordVerbOptions& options);
 
-/// Options of verbs that take a record and track orders along it.
-struct MeasuredVerbOptions {
-  RecordVerbOptions record{};
+/// What is asked of a machine in operation, of a record or of a simulation.
+struct MachineVerbOptions {
   Option<std::vector<double>> orders{
       "orders", "Q,...", "multiples of the speed that are tracked along it, such as 1,2",
       parse_orders};
@@ -44,14 +48,50 @@ struct MeasuredVerbOptions {
   Option<double> order_revolutions{"order-revolutions", "N",
                                    "of the record that each point of these orders is made of", 8.0,
                                    parse_revolutions};
-  auto fields() { return std::tie(record, orders, slow_roll, order_revolutions); }
+  Option<double> order_step{"order-step", "N",
+                            "revolutions from a point of these orders to the next; left out: 1 "
+                            "along a run-up, half of --order-revolutions at a steady speed",
+                            parse_revolutions};
+  Flag trend{"trend", "overall, 1X and gap along the record, or of each record of a list"};
+  Option<ZoneClass> zones{"zones", "CLASS",
+                          "zones A to D of ISO 20816-3: shaft, or housing-1-rigid, -1-flexible, "
+                          "-2-rigid, -2-flexible"};
+  Option<double> alarm{"alarm", "P", "limit of the overall reading, peak to peak, such as 60um",
+                       parse_length};
+  Option<double> trip{"trip", "P", "limit above that one", parse_length};
+  auto fields() {
+    return std::tie(orders, slow_roll, order_revolutions, order_step, trend, zones, alarm, trip);
+  }
 };
 
-/// The orders that a call asks for; nothing: it asks for none.
+/// Options of verbs that take a record and say what a machine does in it.
+struct MeasuredVerbOptions {
+  RecordVerbOptions record{};
+  Option<ModelScale> model_curve{
+      "model-curve", "HOW",
+      "the model's unbalance response beside 1X of --orders: fit, times what fits best, or own, as "
+      "the model has it"};
+  auto fields() { return std::tie(record, model_curve); }
+};
+
+/// What was found of a machine in operation.
+struct MachineFindings {
+  std::optional<OrderTracking> orders{};
+  std::optional<Trend> trend{};
+  std::optional<ZoneReport> zones{};
+
+  /// Adds what there is to a report.
+  void tell(Report& report) const;
+  /// Writes it.
+  void write(ResultWriter& file) const;
+};
+
+/// What a call asks of readings.
+/// @param speed  of the rotor where there is no key-phasor [rad/s]
 /// @throws ModelError   for options of orders without these, and for orders without a key-phasor
-/// @throws OptionError  as track_orders
-std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,
-                                            const ProbeReadings& readings);
+/// @throws OptionError  as track_orders and trend_of
+MachineFindings machine_findings(const MachineVerbOptions& options, const ProbeReadings& readings,
+                                 double speed);
 
 /// Options of verbs that write what a measurement of their motion would have recorded.
 struct RecordingVerbOptions {

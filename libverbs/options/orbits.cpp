@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "libbase/error.hpp"
+#include "libio/results/columns.hpp"
+#include "libio/texts/motion_notes.hpp"
+#include "libio/texts/motion_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -11,6 +17,18 @@ namespace {
 constexpr long most_harmonics = 10000;
 
 }  // namespace
+
+MotionLoads add_loads(Report& report, const Model& model, const Scene& scene, const Vec& state,
+                      double period) {
+  const long revolutions = std::max<long>(noted_revolutions, std::lround(std::ceil(period)));
+  const SupportLoads supports(model, scene);
+  const Recording motion = recorded_from(scene, {.y = state}, revolutions, &supports);
+  MotionLoads loads = motion_loads(supports.parts(), motion);
+  report.record.set("loads", record_of(loads));
+  report.text += text_of(loads);
+  report.add_notes(motion_notes(model, scene, motion));
+  return loads;
+}
 
 void require_balance(OrbitMethod method, bool is_given, const char* option) {
   if (method == OrbitMethod::harmonic_balance || !is_given) return;

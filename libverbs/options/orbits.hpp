@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/transient.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 #include "libio/model/branch_parameters.hpp"
@@ -42,6 +43,12 @@ struct AlongVerbOptions {
 inline Option<OrbitFrame> frame_option() {
   return {"frame", "F", "in which it repeats: stationary or rotating", OrbitFrame::stationary};
 }
+
+/// Adds the forces of an orbit, over its period or some revolutions if these are more, and notes on
+/// motions that no machine makes.
+/// @param period  [revolutions]
+MotionLoads add_loads(Report& report, const Model& model, const Scene& scene, const Vec& state,
+                      double period);
 
 /// Checks that an option, if it is given, goes with the method.
 /// @param option  its name, with dashes

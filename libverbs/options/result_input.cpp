@@ -6,23 +6,39 @@
 #include "libio/model/model_file.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/result_schema.hpp"
+#include "libio/text/shown_units.hpp"
 
 namespace whirl::inline cli {
 
 namespace fs = std::filesystem;
 
-void require_result(const Invocation& call, const std::string& kind) {
-  const fs::path model = call.file;
-  if (model.extension() != ".toml" || !fs::is_regular_file(model)) return;
-  const std::string out = fs::path(model).replace_extension(".h5").string();
+bool is_model_file(const Invocation& call) {
+  return fs::path(call.file).extension() == ".toml" && fs::is_regular_file(call.file);
+}
+
+FileError no_result(const Invocation& call, const std::string& kind) {
+  const std::string out = fs::path(call.file).replace_extension(".h5").string();
   std::vector<std::string> then{"whirl", call.verb, out};
   if (!kind.empty()) then.push_back(kind);
-  throw FileError(fmt::format(
-      "cannot open {}: not an HDF5 file but a model; compute a result first, such as\n  {}\n  {}",
-      call.file, shell_line({"whirl", verb_for(kind), call.file, "--out", out}), shell_line(then)));
+  const bool draws = call.verb == "plot" && kind.empty();
+  return FileError(fmt::format(
+      "cannot open {}: not an HDF5 file but a model; compute a result first, such as\n  {}\n  {}{}",
+      call.file, shell_line({"whirl", verb_for(kind), call.file, "--out", out}), shell_line(then),
+      draws ? fmt::format("\nor draw the model:\n  {}",
+                          shell_line({"whirl", "plot", call.file, "layout"}))
+            : ""));
+}
+
+void require_result(const Invocation& call, const std::string& kind) {
+  if (is_model_file(call)) throw no_result(call, kind);
 }
 
 void set_frequency_unit(const Option<std::string>& unit, ResultView& result) {
+  if (!unit.is_given) {
+    const ShownUnit shown = shown_unit("Hz");
+    result.frequency = {shown.name, 1.0 / shown.size};
+    return;
+  }
   const auto known = frequency_unit(*unit);
   if (!known) throw unit.wrong("expected Hz, cpm or rad/s");
   result.frequency = *known;

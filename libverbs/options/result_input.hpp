@@ -13,12 +13,18 @@
 
 namespace whirl::inline cli {
 
-/// Says what to do first if a result is needed and a model is given.
+/// Whether the file of a call is TOML by its name, as models are.
+bool is_model_file(const Invocation& call);
+
+/// What to do first where a result is needed and a model is given.
+/// @param kind  of the figure that is wanted; empty: any
+FileError no_result(const Invocation& call, const std::string& kind);
+/// Says it.
 /// @param kind  of the figure that is wanted; empty: any
 /// @throws FileError  if the call's file is TOML by its name, and no HDF5 file
 void require_result(const Invocation& call, const std::string& kind);
 
-/// Shows frequencies in the unit of --frequency.
+/// Shows frequencies in the unit of --frequency, or, where it is left out, in that of --units.
 /// @throws ModelError  for another than Hz, cpm and rad/s
 void set_frequency_unit(const Option<std::string>& unit, ResultView& result);
 

@@ -62,6 +62,9 @@ Report motion_report(const Invocation& call, const Model& model, const Run& run,
   const Integration& integration = run.simulation.integration;
   const RunSummary summary = run_summary(run);
   Report report = begin_report(call, model, record_of(summary));
+  if (run.has_motion()) {
+    report.record.set("clearances", columns::record_value(clearances_of(model, run), 1.0));
+  }
   report.text = headline(what, model) + "\n" + text_of(run, model, summary, stations);
   report.failure = integration.failure;
   report.status = status_of(integration.outcome);

@@ -14,7 +14,8 @@ namespace {
 
 struct AnimateVerbOptions {
   Option<std::string> out = output_option(
-      "out", "FILE", "video .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE");
+      "out", "FILE",
+      "video .mp4, .gif or .ogv, or pictures .png, numbered; left out: .ogv beside FILE");
   Option<long> mode{"mode", "N", "this mode; left out: the motion of a result, of others mode 1",
                     mode_range};
   WindowVerbOptions window{
@@ -42,8 +43,10 @@ Report run_animate(const Invocation& call, const AnimateVerbOptions& options) {
                                      .frames = options.frames.value});
   video.title = clip.title;
   const auto files = [&] {
-    const auto shown = progress_of(call, fmt::format("drawing {} pictures", clip.frames.size()));
-    return write_video(source.scene, clip.frames, video);
+    video.progress = progress_of(call, fmt::format("drawing {} pictures", clip.frames.size()));
+    const auto written = write_video(source.scene, clip.frames, video);
+    video.progress = {};  // the line is gone before the report
+    return written;
   }();
 
   Report report = begin_report(call, source.model);
@@ -63,7 +66,7 @@ Verb animate_verb() {
       .group = "Results",
       .summary = "a video of a motion or of a mode",
       .takes = "FILE",
-      .example = "whirl animate run.h5 --out run.ogv",
+      .example = "whirl animate run.h5 --out run.gif",
       .run = run_animate,
   };
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "libbase/error.hpp"
 #include "libio/export/scene_export.hpp"
 #include "libverbs/command/invocation.hpp"
 #include "libverbs/command/reporting.hpp"
@@ -41,6 +42,10 @@ Report run_export(const Invocation& call, const ExportVerbOptions& options) {
                                                  .modes = *options.modes,
                                                  .replaces = call.picture_replaces()});
   Report report = begin_report(call, source.model);
+  if (written.files.empty()) {
+    throw FileError(
+        fmt::format("{} holds nothing that can be written as {}", call.file, *options.format));
+  }
   report.text = written.text;
   report.add_notes(written.notes);
   report.record.set("files", file_list(written.files));

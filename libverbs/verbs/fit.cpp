@@ -1,3 +1,5 @@
+#include "libverbs/options/fit.hpp"
+
 #include <fmt/format.h>
 
 #include "libio/measured/model_fit.hpp"
@@ -9,41 +11,11 @@
 #include "libio/texts/motion_notes.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
-#include "libverbs/options/common.hpp"
-#include "libverbs/options/measured.hpp"
 #include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 
 namespace {
-
-struct FitVerbOptions {
-  RecordVerbOptions record{};
-  Option<std::string> free{"free", "PATH[=LO:HI],...",
-                           "values of the model that are found, with bounds if they have any"};
-  Option<double> from{"from-revolution", "N", "revolutions of a record before those that count",
-                      0.0, parse_revolutions};
-  Option<double> revolutions{"revolutions", "N",
-                             "of a record that count; 0: all, as with --steady if left out", 20.0,
-                             parse_revolutions};
-  Option<ProbeNoise> noise{"noise", "S",
-                           "standard deviation of the probes' noise, such as 2um, or 1% of what "
-                           "each reads; left out: what is left is noise",
-                           parse_probe_noise};
-  Option<int> steady{"steady", "N",
-                     "the motion repeats after N revolutions: its average over all that count is "
-                     "fitted to, as one that closes",
-                     Whole{1, 10'000}};
-  Flag offsets{"offsets", "find a constant that each probe adds, too, such as its gap"};
-  Option<std::string> against =
-      file_option("against", "FILE,...", "other models, told by their likelihood beside this one");
-  Option<int> starts{"starts", "N", "of the search, the first one at the model's values", 1,
-                     start_range};
-  Option<std::uint64_t> seed = seed_option();
-  auto fields() {
-    return std::tie(record, free, from, revolutions, noise, steady, offsets, against, starts, seed);
-  }
-};
 
 /// The models that are fitted, the call's own first.
 std::vector<Model> models_of(const Invocation& call, const FitVerbOptions& asked) {
@@ -59,6 +31,7 @@ MeasuredFitOptions fit_options(const Invocation& call, const FitVerbOptions& ask
   return {.noise = asked.noise.value,
           .period = asked.steady.value_or(0),
           .finds_offsets = asked.offsets,
+          .runout_orders = asked.runout.value_or(0),
           .starts = *asked.starts,
           .seed = *asked.seed,
           .threads = study_threads(call),

@@ -1,6 +1,7 @@
 #include "libio/texts/identification_text.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/options/simulation.hpp"
+#include "libverbs/verbs/identify_machine.hpp"
 #include "libverbs/verbs/identify_measured.hpp"
 
 namespace whirl::inline cli {
@@ -14,10 +15,11 @@ struct IdentifyVerbOptions {
   Flag reduced{"reduced", "modes of the reduced rotor that the motion was computed with"};
   Flag stiffened{"stiffened", "modes of the rotor with its contacts closed for good"};
   MeasuredVerbOptions measured{};
+  MachineVerbOptions machine{};
   RunningModesVerbOptions running{};
   IntegrationVerbOptions integration{};
   auto fields() {
-    return std::tie(modes, rotations, mass_weighted, reduced, stiffened, measured, running,
+    return std::tie(modes, rotations, mass_weighted, reduced, stiffened, measured, machine, running,
                     integration);
   }
 };
@@ -72,7 +74,7 @@ Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
         "does not go with --stiffened: contacts are no part of the reduced rotor");
   }
   if (asked.measured.record.measured) {
-    return identify_measured(call, asked.measured, asked.running, options);
+    return identify_measured(call, asked.measured, asked.machine, asked.running, options);
   }
   const Model model = call.model();
   require_speed(model);
@@ -81,6 +83,7 @@ Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
     Report report = motion_report(call, model, run, station_summaries(run), "Identification");
     if (file) write_run(*file, motion, model);
     add_identification(model, run, options, report, file.get());
+    add_machine(model, run, asked.machine, report, file.get());
     commit(call, file.get(), report);
     return report;
   };

@@ -12,6 +12,7 @@ std::string mac_heading(const Model& model, const IdentifyOptions& options);
 
 /// What the motion of a record is made of.
 Report identify_measured(const Invocation& call, const MeasuredVerbOptions& asked,
+                         const MachineVerbOptions& machine_asked,
                          const RunningModesVerbOptions& running_asked,
                          const IdentifyOptions& options);
 

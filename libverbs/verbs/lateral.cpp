@@ -6,6 +6,7 @@
 #include "libio/texts/lateral_text.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
+#include "libverbs/options/variants.hpp"
 
 namespace whirl::inline cli {
 
@@ -34,8 +35,10 @@ struct LateralVerbOptions {
       "gas-density", "RHO",
       "average of the gas, for the region of the screening of level I, such as 30kg/m^3",
       parse_gas_density};
+  ListOption variants = variants_option();
   auto fields() {
-    return std::tie(minimum_speed, maximum_speed, trip_speed, coupling, stages, gas_density);
+    return std::tie(minimum_speed, maximum_speed, trip_speed, coupling, stages, gas_density,
+                    variants);
   }
 };
 
@@ -71,9 +74,10 @@ Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
   const LateralOptions how = lateral_options(options, model);
   model.speed = how.range.maximum;  // at which the rotor is weighed and looked at
   const Assembler assembler(model.structure);
-  const LateralStudy study = lateral_report(model, how);
+  const LateralStudy study =
+      lateral_report(model, how, variants_of(call, options.variants, model.speed));
   const StaticStudy rest = static_study(model, assembler);
-  Report report = begin_report(call, model, record_of(study.report));
+  Report report = begin_report(call, model, record_of(study.report).merge(record_of(study.parts)));
   report.record.merge(record_of(study.criticals)).set("campbell", record_of(study.campbell));
   report.text = text_of(study);
   Model rotor = model;
@@ -89,6 +93,7 @@ Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, study.report);
+    write_result(file, study.parts);
     write_criticals(file, linear_structure(model), study.criticals);
     write_result(file, study.campbell);
     write_rest(file, rest);

@@ -3,6 +3,7 @@
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
+#include "libio/text/shown_units.hpp"
 #include "libio/texts/modes_text.hpp"
 #include "libio/texts/over_text.hpp"
 #include "libverbs/command/reporting.hpp"
@@ -38,7 +39,8 @@ Report run_modes(const Invocation& call, const ModesVerbOptions& options) {
   const ModesAtPoints modes(complex_modes(assembler, model.speed, *options.modes, completeness),
                             assembler.at(model.speed).dofs);
   Report report = begin_report(call, model, record_of(modes));
-  report.text = fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, text_of(modes));
+  report.text = fmt::format("Complex modes at {}\n\n{}", shown_value(model.speed, "rpm", ".6g"),
+                            text_of(modes));
   report.add_notes(linear_notes(model, {model.speed}));
   if (!modes.is_proven())
     report.add_notes({"a mode may be missing: --unproven leaves the proof out"});

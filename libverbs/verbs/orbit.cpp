@@ -4,7 +4,6 @@
 #include "libio/results/branch_point.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/orbit_results.hpp"
-#include "libio/texts/motion_notes.hpp"
 #include "libio/texts/orbit_text.hpp"
 
 namespace whirl::inline cli {
@@ -37,10 +36,12 @@ Report orbit_found(const Invocation& call, const Model& model, const Scene& scen
   report.record.merge(asked).merge(record_of(orbit));
   report.record.set("reduction", record_of(reduction_facts(scene)));
   report.text += "\n" + reduction_text(scene, model) + text_of(orbit);
-  if (orbit.is_good()) {
-    report.add_notes(motion_notes(model, scene, {.y = state_of(orbit)}, noted_revolutions));
-  }
-  write_file(call, model, report, [&](ResultWriter& to) { write_orbit(to, model, scene, orbit); });
+  std::optional<MotionLoads> loads;
+  if (orbit.is_good()) loads = add_loads(report, model, scene, state_of(orbit), orbit.period);
+  write_file(call, model, report, [&](ResultWriter& to) {
+    write_orbit(to, model, scene, orbit);
+    if (loads) write_result(to, *loads);
+  });
   return report;
 }
 

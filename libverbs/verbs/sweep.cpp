@@ -61,6 +61,11 @@ Report run_sweep(const Invocation& call, const SweepVerbOptions& asked) {
     if (result.probes.size() > 0) {
       record.set("probes", columns::record_value(result.probes.list(), 1.0));
     }
+    if (!result.leaves_out("support")) {
+      Record supports = Record::array();
+      for (const std::string& name : result.supports) supports.add(name);
+      record.set("supports", std::move(supports));
+    }
     record.set("up", entries(0)).set("down", asked.fresh ? Record::array() : entries(1));
   }
   return study_report(call, points, outcome, record,

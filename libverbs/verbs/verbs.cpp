@@ -14,6 +14,7 @@
   unbalance_verb(),  \
   frf_verb(),        \
   lateral_verb(),    \
+  balance_verb(),    \
   simulate_verb(),   \
   identify_verb(),   \
   fit_verb(),        \

@@ -142,7 +142,7 @@ std::string report_html(const std::vector<std::string>& files) {
   const py::gil_scoped_release others_run;
   std::vector<std::unique_ptr<ResultView>> results;
   for (const std::string& file : files) results.push_back(std::make_unique<ResultView>(file));
-  return report_page(results, version).html;
+  return report_page(results, cover_of(results, version)).html;
 }
 
 }  // namespace whirl::inline python

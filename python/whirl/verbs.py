@@ -79,7 +79,8 @@ VERBS = {verb.name: verb for verb in map(_verb, _whirl.verb_table())}
 
 def _of_a_motion() -> Verb:
     """identify, where the motion is there: without the options of its integration, and of records."""
-    kept = ("modes", "rotations", "mass_weighted", "stiffened", "out", "force")
+    kept = ("modes", "rotations", "mass_weighted", "stiffened", "orders", "slow_roll", "order_revolutions", "order_step",
+            "trend", "zones", "alarm", "trip", "out", "force")
     verb = VERBS["identify"]
     return verb._replace(options={k: o for k, o in verb.options.items() if k in kept})
 

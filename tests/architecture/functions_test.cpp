@@ -157,6 +157,7 @@ TEST(Architecture, NoClassIsTooWide) {
       {"Writer", {27, "a function for every table of a file"}},
       {"Builder", {27, "the calls that a parser of JSON makes"}},
       {"LinearFlow", {26, "tables and what is done with them"}},
+      {"Assembler", {26, "all that a structure says at a speed: matrices, loads, places, ratios"}},
   };
   std::map<std::string, int> wide;
   for_each_source([&](const fs::path& path, std::istream& file) {

@@ -39,4 +39,11 @@ TEST_F(OtherProgram, SaysAnErrorRatherThanTheLinesBehindIt) {
   EXPECT_EQ(last_words(output), "it does not say why");
 }
 
+TEST(ProgramNamed, IsTheOneThatRuns) {
+  const auto shell = program_named("sh");
+  ASSERT_TRUE(shell);
+  EXPECT_EQ(run_program({*shell, "-c", "exit 3"}), 3);
+  EXPECT_FALSE(program_named("no-program-of-this-name"));
+}
+
 }  // namespace whirl::program_test

@@ -36,6 +36,27 @@ def check(is_true, what):
         print("FAILED:", what, flush=True)
 
 
+# texts of all figures that run out of their picture, or into each other by more than half a line
+BAD_TEXTS = """views.flatMap(v => v.figures.flatMap((f, k) => {
+  v.choose(k);
+  const ctx = new SvgContext(v.width, v.height), place = document.createElement('div'), found = [];
+  v.drawing.draw(ctx, v.width, v.height);
+  place.innerHTML = ctx.document().replace(/^<.xml.*?>/, '');
+  document.body.append(place);
+  const whole = place.firstElementChild.getBoundingClientRect();
+  const texts = [...place.querySelectorAll('text')].filter(t => t.getAttribute('fill') !== 'none' && t.textContent)
+    .map(t => [t.textContent, t.getBoundingClientRect()]);
+  texts.forEach(([a, r], i) => {
+    if (r.left < whole.left - 1 || r.right > whole.right + 1 || r.top < whole.top - 1) found.push(`${f.kind} ${f.variant}: ${a} runs out`);
+    for (const [b, s] of texts.slice(i + 1)) {
+      const wide = Math.min(r.right, s.right) - Math.max(r.left, s.left), high = Math.min(r.bottom, s.bottom) - Math.max(r.top, s.top);
+      if (wide > 1 && high > 6) found.push(`${f.kind} ${f.variant}: ${a} on ${b}`);
+    }
+  });
+  place.remove();
+  return found; }))"""
+
+
 def check_figures(browser, name):
     """Every figure of a page, every station of it, has ink in the colors of its curves."""
     for i in range(browser.value("views.length")):
@@ -96,6 +117,32 @@ def check_hands(browser, name):
     browser.value("document.getElementById('theme').click()")
     check(browser.value("getComputedStyle(document.body).backgroundColor") != light, f"{name}: not dark")
     browser.value("document.getElementById('theme').click()")
+
+
+def check_ranges(browser, name):
+    """Boxes that the keyboard reaches tell the ranges of the axes and set them; what is no range is marked."""
+    view = "views.find(v => v.figure.kind === 'time_history')"
+    button = f"[...{view}.card.querySelectorAll('.tools button')].find(b => b.textContent === 'Range')"
+    before = browser.value(f"{view}.drawing.panels.map(p => p.view)")
+    browser.value(f"{button}.click()")
+    told = browser.value(f"[...{view}.ranges.querySelectorAll('input')].map(i => [i.ariaLabel, i.value, i.tabIndex])")
+    check([t[0] for t in told] == ["x from", "x to", "y from", "y to"], f"{name}: boxes {told}")
+    check(all(t[2] == 0 for t in told), f"{name}: the keyboard does not reach {told}")
+    first, last = before[0]["x"]
+    check(abs(float(told[1][1]) - last) < 1e-4 * (last - first) + 1e-5, f"{name}: x ends at {last}, the box says {told[1][1]}")
+    write = f"""((n, text) => {{ const box = {view}.ranges.querySelectorAll('input')[n]; box.focus(); box.value = text;
+      box.dispatchEvent(new Event('change')); return box.getAttribute('aria-invalid'); }})"""
+    middle = 0.5 * (first + last)
+    browser.value(f"{write}(0, '{middle}')")
+    now = browser.value(f"{view}.drawing.panels.map(p => p.view)")
+    check(abs(now[0]["x"][0] - middle) < 1e-9 and now[1]["x"] == now[0]["x"], f"{name}: from {middle} gives {now}")
+    check(browser.value(f"{write}(2, 'word')") == "true", f"{name}: a word is taken for a range")
+    check(browser.value(f"{write}(2, '1e9')") == "true", f"{name}: a range from high to low is taken")
+    check(browser.value(f"{view}.drawing.panels[0].view.y") == before[0]["y"], f"{name}: what is no range changes y")
+    browser.value(f"{view}.reset()")
+    check(browser.value(f"{view}.drawing.panels.map(p => p.view)") == before, f"{name}: Reset does not go back")
+    browser.value(f"{button}.click()")
+    check(browser.value(f"{view}.ranges.hidden"), f"{name}: the boxes stay")
 
 
 def check_space(browser, name):
@@ -215,6 +262,16 @@ def check_phone(browser, name):
     check(side_by_side == [], f"{name}: panels beside each other on a phone: {side_by_side}")
     high = browser.value("views.filter(v => v.drawing.panels.some(p => p.box && p.box.h < 60)).map(v => v.figure.kind)")
     check(high == [], f"{name}: panels too low to read on a phone: {high}")
+    bad = browser.value(BAD_TEXTS)
+    check(bad == [], f"{name}: texts on a phone: {bad}")
+    # circles are as wide as there is room; a logarithmic axis of two powers of ten and more tells two
+    narrow = browser.value("""views.flatMap(v => v.drawing.panels.filter(p => p.frame === false && p.equal && p.box.h < 0.95 * p.box.w)
+      .map(() => v.figure.kind))""")
+    check(narrow == [], f"{name}: circles smaller than a phone: {narrow}")
+    untold = browser.value("""views.flatMap(v => v.drawing.panels.flatMap(p => [[p.ax, v.drawing.ticksAlong(p)], [p.ay, v.drawing.ticksUp(p)]]
+      .filter(([axis, ticks]) => axis.log && axis.last / axis.first >= 100 && ticks.filter(t => t.label.startsWith('10')).length < 2)
+      .map(() => v.figure.kind)))""")
+    check(untold == [], f"{name}: axes without powers of ten: {untold}")
     tables = browser.value("""[...document.querySelectorAll('table')].filter(t => t.scrollWidth > t.parentElement.clientWidth
       && getComputedStyle(t.parentElement).overflowX !== 'auto').length""")
     check(tables == 0, f"{name}: {tables} tables are cut off on a phone")
@@ -352,8 +409,9 @@ def main():
                 check_space(browser, name)
             if name == "identify":
                 check_hands(browser, name)
-                check_phone(browser, name)
+                check_ranges(browser, name)
                 check_paper(browser, name)
+            check_phone(browser, name)
             if name == "map":
                 command = check_map(browser, name).split()
                 done = subprocess.run([whirl, *command[1:], *study, "--quiet"], capture_output=True, text=True)

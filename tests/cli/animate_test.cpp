@@ -50,7 +50,7 @@ TEST_F(Animate, DrawsGifs) {
   if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
   const Outcome video = without_display(
       "animate " + disks + " --out m.gif --mode 1 --frames 5 --size 320x240 --rate 20");
-  if (video.status == 2 && has(video.err, "neither is there")) {
+  if (video.status == 2 && has(video.err, "which is not there")) {
     GTEST_SKIP() << "needs ffmpeg or imagemagick";
   }
   ASSERT_EQ(video.status, 0) << video.err;
@@ -86,6 +86,17 @@ TEST_F(Animate, DrawsGifs) {
   EXPECT_TRUE(loops);
 }
 
+// A file of the MP4 family, by its first box.
+TEST_F(Animate, DrawsMp4) {
+  if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
+  if (wait(start("sh", {"-c", "command -v ffmpeg"})).status != 0) GTEST_SKIP() << "needs ffmpeg";
+  const Outcome video =
+      without_display("animate " + disks + " --out m.mp4 --mode 1 --frames 5 --size 321x241");
+  ASSERT_EQ(video.status, 0) << video.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"m.mp4"});
+  EXPECT_EQ(content(folder / "m.mp4").substr(4, 4), "ftyp");
+}
+
 // Where there is nothing to draw on it is said, also where VTK ends the process; nothing is
 // written.
 TEST_F(Animate, TellsWhatIsMissing) {
@@ -96,8 +107,15 @@ TEST_F(Animate, TellsWhatIsMissing) {
       without_display("animate " + disks + " --out m.ogv", "DISPLAY=:4711");
   EXPECT_EQ(wrong_display.status, 2);
   EXPECT_TRUE(has(wrong_display.err, "cannot draw")) << wrong_display.err;
+  for (const char* file : {"m.mp4", "m.gif"}) {  // before anything is drawn
+    const Outcome no_ffmpeg =
+        without_display("animate " + disks + " --out " + file, "PATH=/nowhere");
+    EXPECT_EQ(no_ffmpeg.status, 2);
+    EXPECT_TRUE(has(no_ffmpeg.err, "Debian package")) << no_ffmpeg.err;
+    EXPECT_TRUE(has(no_ffmpeg.err, "ffmpeg")) << no_ffmpeg.err;
+  }
   for (const auto& [words, message] : std::vector<std::pair<std::string, std::string>>{
-           {"--out m.mp4", "expected a video .ogv or .gif, or pictures .png"},
+           {"--out m.avi", "expected a video .mp4, .gif or .ogv, or pictures .png"},
            {"--out m.ogv --size big", "expected WIDTHxHEIGHT"},
            {"--out m.ogv --size 1x1", "expected WIDTHxHEIGHT"},
            {"--out m.ogv --mode 4711", "there is no such mode"},

@@ -36,6 +36,8 @@ TEST_F(BadCall, VerbsThatDoNotExist) {
   EXPECT_EQ(problem_of_line({"--verison"}),
             "whirl: there is no option \"--verison\"; did you mean \"--version\"?\n");
   EXPECT_TRUE(has(problem_of_line({"dance"}), "known are check, import, static, modes, "));
+  EXPECT_TRUE(has(problem_of_line({"orbit", "plot", "rotor.toml"}),
+                  "a picture is `whirl simulate MODEL --out r.h5`, then `whirl plot r.h5 orbit`"));
 }
 
 TEST_F(BadCall, OptionsThatDoNotExist) {

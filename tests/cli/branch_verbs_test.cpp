@@ -25,7 +25,7 @@ TEST_F(Branches, OfBouncingBeginAboveTheInternalResonance) {
   EXPECT_EQ(branch["branches"][0]["end_kind"], "closed");
   std::vector<double> folds;
   for (const json& b : branch["bifurcations"]) {
-    if (b["kind"] == "fold") folds.push_back(b["value"].get<double>() / rpm);
+    if (b["kind"] == "fold") folds.push_back(b["value"].get<double>() / test::rpm);
   }
   std::sort(folds.begin(), folds.end());
   ASSERT_EQ(folds.size(), 2u);
@@ -53,7 +53,7 @@ TEST_F(Branches, OfBouncingBeginAboveTheInternalResonance) {
   EXPECT_LT(found["speed_rpm"], folds[1]);
 
   const ResultReader file(folder / "resonances.h5");
-  EXPECT_NEAR(file.vector("/resonances/speed")(0), speed * rpm, 1e-9);
+  EXPECT_NEAR(file.vector("/resonances/speed")(0), speed * test::rpm, 1e-9);
   EXPECT_EQ(file.integers("/resonances/bouncing_stable")[0], 1);
   // its end is that motion
   const json orbit = result({"orbit", two_disk, "--frame", "rotating", "--from", "resonances.h5",
@@ -82,16 +82,16 @@ TEST_F(Branches, OfTheRotatingFrameAreChainedFromTheirPoints) {
 }
 
 TEST_F(Branches, OfTheRotatingFrameTakeNeitherPeriodsNorSwitches) {
-  const Outcome o = whirl({"continue", two_disk, "--frame", "rotating", "--over",
+  const test::Outcome o = whirl({"continue", two_disk, "--frame", "rotating", "--over",
                            "operation.speed=3000:7000:20rpm", "--period", "2"});
   EXPECT_EQ(o.status, 2);
   EXPECT_TRUE(has(o.err, "neither --period nor --switch")) << o.err;
-  const Outcome heavy = whirl({"continue", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
+  const test::Outcome heavy = whirl({"continue", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
                                "--frame", "rotating", "--over", "operation.speed=130:140rad/s"});
   EXPECT_EQ(heavy.status, 3);
   EXPECT_TRUE(has(heavy.err, "gravity, bearings, contacts or forces that tell directions apart"))
       << heavy.err;
-  const Outcome nothing =
+  const test::Outcome nothing =
       whirl({"resonances", write("free.toml", jeffcott), "--speeds", "0:2000:20rpm", "--confirm"});
   EXPECT_EQ(nothing.status, 2);
   EXPECT_TRUE(has(nothing.err, "contacts to bounce in")) << nothing.err;
@@ -176,7 +176,7 @@ TEST_F(Branches, AreCirclesSeenFromOutside) {
   EXPECT_NEAR(circle["exponents_per_rev"][0], std::log(size) / turns, 1e-3);
   const ResultReader file(folder / "torus.h5");
   EXPECT_EQ(file.shape("/torus/displacement")[0], 67);
-  const Outcome settled = whirl({"torus", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml"});
+  const test::Outcome settled = whirl({"torus", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml"});
   EXPECT_EQ(settled.status, 3);
   EXPECT_TRUE(has(settled.err, "settled on a periodic orbit")) << settled.err;
 }

@@ -1,5 +1,7 @@
 // Disks given by mass and inertia have no size: every picture draws a symbol and says so.
 
+#include <map>
+
 #include "tests/cli/plots.hpp"
 
 namespace whirl::test {
@@ -7,6 +9,7 @@ namespace disk_symbols_test {
 
 using plot_test::figures_in;
 using plot_test::named;
+using plot_test::panel_of;
 
 const std::string rotor = R"(format = 1
 [operation]
@@ -48,7 +51,7 @@ class DiskSymbols : public plot_test::Plot {
   }
 };
 
-const std::string told = "disk, size not given (symbol)";
+const std::string told = "disk, size not given (not to scale)";
 
 // In the layout and behind mode shapes it is a broken line, named in the legend. With a size it is
 // the area that it takes.
@@ -80,6 +83,20 @@ TEST_F(DiskSymbols, FiguresDrawABrokenLineAndNameIt) {
   EXPECT_NEAR(largest_of(disk.x), 540.0, 1e-9);
 }
 
+// A symbol says the inertia by its height above the shaft: from 1.5 % of the length without any to
+// 6 % of the largest, whatever the mass is.
+TEST_F(DiskSymbols, TheirHeightSaysTheInertia) {
+  const auto more = [](const char* at, const char* Ip) {
+    return std::string("[[disk]]\nat = ") + at + "\nmass = 50\npolar_inertia = " + Ip +
+           "\ndiametral_inertia = 1.5\n";
+  };
+  make_modes(more("0.25", "1") + more("0.75", "0"));
+  const auto symbols = named(panel_of("layout", ResultView(folder / "m.h5")), told);
+  const std::map<double, double> height{{500.0, 60.0}, {250.0, 37.5}, {750.0, 15.0}};  // [mm]
+  ASSERT_EQ(symbols.size(), 6u);
+  for (const Curve& c : symbols) EXPECT_NEAR(largest_of(c.y), 50.0 + height.at(c.x[0]), 1e-9);
+}
+
 // The page's picture in space is told which disks are symbols, and what to say of them.
 TEST_F(DiskSymbols, ThePageKnowsThem) {
   make_modes("");
@@ -102,7 +119,7 @@ TEST_F(DiskSymbols, ExportsNameThem) {
   make_modes("");
   const Outcome series = whirl({"export", "rotor.toml", "--out", "p"});
   EXPECT_EQ(series.status, 0) << series.err;
-  EXPECT_TRUE(has(series.out, "symbols, as the model does not give the size of wheel"));
+  EXPECT_TRUE(has(series.out, "not to scale, as the model does not give the size of wheel"));
   const bool has_meshio = wait(start("sh", {"-c", "command -v meshio"})).status == 0;
   if (!has_meshio) GTEST_SKIP() << "there is no meshio (Debian package meshio-tools)";
   const Outcome surface = whirl({"export", "rotor.toml", "--format", "stl", "--out", "p"});

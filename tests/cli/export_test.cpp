@@ -117,16 +117,18 @@ TEST_F(Export, ATimeHistoryIsATable) {
       result({"export", "run.h5", "--format", "csv", "--out", "t"})["files"];
   EXPECT_EQ(written,
             (std::vector<std::string>{"t_contacts_name.csv", "t_points_body_name.csv",
-                                      "t_spectra_frequency.csv", "t_trajectory_time.csv"}));
+                                      "t_spectra_frequency.csv", "t_trajectory_time.csv",
+                                      "t_trajectory_support_name.csv"}));
   EXPECT_EQ(python_says("import csv, h5py, numpy as np\n"
                         "rows = list(csv.reader(open('t_trajectory_time.csv')))\n"
                         "print(','.join(rows[0]))\n"
                         "a = np.array([[float(v) for v in r] for r in rows[1:]])\n"
                         "t = h5py.File('run.h5')['trajectory']\n"
                         "b = np.vstack([t['time'], t['friction_force'], t['normal_force'], "
-                        "t['x'], t['y']]).T\n"
+                        "t['support_force_x'], t['support_force_y'], t['x'], t['y']]).T\n"
                         "print(a.shape == b.shape and (a == b).all())"),
-            "time [s],friction_force ring [N],normal_force ring [N],x rotor [m],y rotor [m]\n"
+            "time [s],friction_force ring [N],normal_force ring [N],support_force_x shaft [N],"
+            "support_force_y shaft [N],x rotor [m],y rotor [m]\n"
             "True\n");
 }
 

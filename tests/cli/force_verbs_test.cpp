@@ -241,7 +241,7 @@ unit = "mil"
     EXPECT_NEAR(drawn(1, 0) * um, two, rounding * two);
     EXPECT_NEAR(drawn(2, 0) * mil, own, rounding * own);
     EXPECT_NEAR(drawn(3, 0) * mm, own, rounding * own);
-    EXPECT_NEAR(drawn(3, 1), std::arg(receptance(w)) * 180.0 / pi, 1e-6);
+    EXPECT_NEAR(drawn(3, 1), -std::arg(receptance(w)) * 180.0 / pi, 1e-6);
   }
   EXPECT_EQ(figures[0].panels[0].y.title, "amplitude p-p [mil]");
   EXPECT_EQ(figures[0].table.rows.at(0).at(0), "1X, 60°");

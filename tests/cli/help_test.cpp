@@ -148,6 +148,9 @@ TEST_F(Help, EveryExampleRuns) {
                    "probes.toml", "--measured-out", "run.csv", "--noise", "1%"})
                 .status,
             0);
+  write("balance.toml",
+        "angles = \"with rotation\"\n[[plane]]\nname = \"left\"\nnode = 4\nradius = \"120 mm\"\n"
+        "[[probe]]\nname = \"left\"\nnode = 4\nangle = 0\n");
   for (const std::string& verb : all_verbs()) {
     if (verb == "animate" && !can_animate()) continue;
     const std::string help = whirl({verb, "--help"}).out;

@@ -55,13 +55,13 @@ class LostFiles : public Program {
   const Words motion{"simulate", "rub.toml", "--revolutions", "30", "--discard", "4", "--quiet"};
 };
 
-// The ending of a name says what is in a file: a page called x.pdf is damaged for every reader of
-// PDF.
+// The ending of a name says what is in a file: a page called x.docx is damaged for every reader of
+// Word.
 TEST_F(LostFiles, AnEndingThatSaysAnotherFormatIsRefused) {
   const std::string ross = WHIRL_SOURCE_DIR "/models/layered_ross.json";
   const std::vector<std::pair<Words, std::string>> calls{
-      {{"report", "run.h5", "--out", "x.pdf"}, "--out x.pdf: what is written is no pdf file"},
-      {{"report", "run.h5", "--out", "x.PDF"}, "expected a name that ends in .html"},
+      {{"report", "run.h5", "--out", "x.docx"}, "--out x.docx: what is written is no docx file"},
+      {{"report", "run.h5", "--out", "x.PNG"}, "expected a name that ends in .html"},
       {{"modes", "rub.toml", "--out", "x.csv"}, "expected a name that ends in .h5"},
       {{"modes", "rub.toml", "--json", "x.h5"}, "expected a name that ends in .json"},
       {{"import", ross, "--out", "x.json"}, "expected a name that ends in .toml"},
@@ -69,7 +69,7 @@ TEST_F(LostFiles, AnEndingThatSaysAnotherFormatIsRefused) {
       {{"bench", "rub.toml", "--svg", "x.png"}, "expected a name that ends in .svg"},
       {{"schema", "--out", "x.html"}, "expected a name that ends in .json"},
       {with(motion, {"--measured-out", "x.png", "--measure", "probes.toml"}), "expected a record"},
-      {{"animate", "run.h5", "--out", "x.mp4"}, "expected a video"}};
+      {{"animate", "run.h5", "--out", "x.avi"}, "expected a video"}};
   for (const auto& [words, part] : calls) expect_refused(words, part);
   EXPECT_EQ(whirl({"modes", "rub.toml", "--out", "x.result", "--json", "x.answer"}).status, 0);
 }

@@ -62,9 +62,9 @@ TEST_F(Window, ThatWasNotRecordedIsRefused) {
   EXPECT_TRUE(has(problem({"plot", "run.h5", "orbit", "--times", "0:0.5"}), there));
   EXPECT_TRUE(
       has(problem({"export", "run.h5", "--from-revolution", "15", "--revolutions", "2"}), there));
-  EXPECT_TRUE(
-      has(problem({"plot", "run.h5", "spectrum", "--revolutions", "2"}),
-          "orbit, time_history, poincare, phase_plane, tilts, contact_motion, contact_forces"));
+  EXPECT_TRUE(has(
+      problem({"plot", "run.h5", "spectrum", "--revolutions", "2"}),
+      "orbit, time_history, orbits, poincare, phase_plane, tilts, contact_motion, contact_forces"));
   EXPECT_TRUE(has(problem({"plot", "run.h5", "orbit", "--times", "0.3:0.4", "--revolutions", "2"}),
                   "does not go with --revolutions"));
   EXPECT_TRUE(has(problem({"export", "rub.toml", "--times", "0.3:0.4"}), "holds none"));

@@ -141,7 +141,10 @@ TEST_F(Plot, ASagShowsReactionsAndMoments) {
   const std::vector<Figure> figures = figures_in("static", view);
   ASSERT_EQ(figures.size(), 1u);
   const Figure& f = figures.front();
-  ASSERT_EQ(f.panels.size(), 3u);
+  ASSERT_EQ(f.panels.size(), 4u);
+  const Vec stress = view.file.vector("/static/bending_stress");
+  EXPECT_NEAR(largest_of(named(f.panels[3], "bending").at(0).y), 1e-6 * stress.maxCoeff(),
+              1e-9 * stress.maxCoeff());
   const Mat load = view.file.matrix("/static/bearing_load");
   EXPECT_EQ(f.table.rows.size(), static_cast<std::size_t>(load.rows()));
   const auto rises = std::count_if(f.panels[0].labels.begin(), f.panels[0].labels.end(),

@@ -25,20 +25,25 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
        {"layout", "unbalance_over"}},
       {{"static", WHIRL_SOURCE_DIR "/models/two_disk_double_rub.toml"}, {"layout", "static"}},
       {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
-       {"layout", "bode", "polar", "deflection"}},
-      {{"unbalance", "shaken.toml", "--speeds", "300:900:300rpm"}, {"bode", "polar", "forced"}},
+       {"layout", "bode", "polar", "deflection", "support_forces"}},
+      {{"unbalance", "shaken.toml", "--speeds", "300:900:300rpm"},
+       {"bode", "polar", "forced", "support_forces"}},
+      {{"orbit", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--period", "1"},
+       {"layout", "multipliers"}},
       {{"frf", disks}, {"layout", "frf"}},
       {{"lateral", disks, "--maximum-speed", "6000rpm"},
        {"layout", "lateral", "campbell", "log_decrement", "critical_map", "lateral_response",
         "coupling"}},
       {{"identify", disks, "--revolutions", "64"},
-       {"layout", "modes", "orbit", "time_history", "spectrum", "waterfall", "poincare",
-        "phase_plane", "tilts", "contact_motion", "contact_forces", "contact_angles", "mac",
-        "all_spectra"}},
+       {"layout", "modes", "orbit", "time_history", "spectrum", "waterfall", "orbits", "centerline",
+        "poincare", "phase_plane", "tilts", "contact_motion", "contact_forces", "contact_angles",
+        "support_history", "mac", "all_spectra"}},
       {{"identify", disks, "--measured", "run.csv", "--probes", "probes.toml", "--orders", "1",
-        "--running-modes"},
-       {"layout", "modes", "measured_orbit", "measured_spectrum", "measured_waterfall",
-        "measured_deflection", "order_bode", "order_polar", "mac", "stabilization"}},
+        "--running-modes", "--trend"},
+       {"layout", "modes", "orbits", "centerline", "measured_orbit", "measured_spectrum",
+        "measured_waterfall", "measured_deflection", "order_bode", "order_polar", "trend", "mac",
+        "stabilization"}},
+      {{"balance", disks, "--speed", "1500rpm", "--runs", "balance.toml"}, {"layout", "balancing"}},
       {{"fit", disks, "--measured", "run.csv", "--probes", "probes.toml", "--free",
         "contact.ring.stiffness", "--revolutions", "4"},
        {"layout", "fit"}},
@@ -61,7 +66,10 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
                    "--revolutions", "64"})
                 .status,
             0);
-  std::vector<std::string> drawn;
+  write("balance.toml",
+        "angles = \"with rotation\"\n[[plane]]\nname = \"left\"\nnode = 4\nradius = \"120 mm\"\n"
+        "[[probe]]\nname = \"left\"\nnode = 4\nangle = 0\n");
+  std::vector<std::string> drawn{"measured_cascade"};  // of a run-up: tests/measured draws it
   for (const auto& [words, expected] : cases) {
     SCOPED_TRACE(words[0]);
     if (words[0] == "torus") {  // a circle takes long to find
@@ -327,7 +335,8 @@ TEST_F(Plot, TellsWhatCanBeDrawn) {
     return outcome.err;
   };
   EXPECT_EQ(problem({"orbitt"}), "orbitt: unknown kind of figure, did you mean \"orbit\"?\n");
-  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, lateral, static, modes, "));
+  EXPECT_TRUE(
+      has(problem({"xyzzy"}), "unknown kind of figure; this result can be drawn as layout, "));
   EXPECT_TRUE(has(problem({"campbell"}), "does not hold what this figure needs"));
   EXPECT_TRUE(has(problem({"orbit", "--which", "moon"}), "there are rotor"));
   EXPECT_TRUE(has(problem({"orbit", "--out", "x.jpg"}), ".svg, .png or .pdf"));
@@ -339,9 +348,50 @@ TEST_F(Plot, TellsWhatCanBeDrawn) {
   EXPECT_EQ(whirl({"plot", "rub.toml", "campbell"}).err,
             "whirl: cannot open rub.toml: not an HDF5 file but a model; compute a result first, "
             "such as\n  whirl campbell rub.toml --out rub.h5\n  whirl plot rub.h5 campbell\n");
+  EXPECT_TRUE(
+      has(whirl({"plot", "rub.toml"}).err, "\nor draw the model:\n  whirl plot rub.toml layout\n"));
   EXPECT_TRUE(has(whirl({"plot", "rub.toml", "branches"}).err, "  whirl continue rub.toml --out"));
   EXPECT_TRUE(has(whirl({"report", "rub.toml"}).err, "  whirl simulate rub.toml --out rub.h5\n"));
   EXPECT_TRUE(has(whirl({"report", "nothing.h5"}).err, "there is no such file"));
+}
+
+// The picture of a model is that of its results, without one; --set counts.
+TEST_F(Plot, DrawsTheLayoutOfAModel) {
+  const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  ASSERT_EQ(whirl({"modes", disks, "--out", "m.h5"}).status, 0);
+  ASSERT_EQ(whirl({"plot", "m.h5", "layout", "--out", "of_result.svg"}).status, 0);
+  ASSERT_EQ(whirl({"plot", disks, "layout", "--out", "of_model.svg"}).status, 0);
+  EXPECT_EQ(content(folder / "of_model.svg"), content(folder / "of_result.svg"));
+  ASSERT_EQ(whirl({"plot", disks, "layout", "--set", "disk.1.outer_diameter=0.5m", "--out",
+                   "of_model.svg"})
+                .status,
+            0);
+  EXPECT_NE(content(folder / "of_model.svg"), content(folder / "of_result.svg"));
+  ASSERT_EQ(whirl({"plot", "rub.toml", "layout"}).status, 0);  // without a shaft, along the axis
+  EXPECT_TRUE(has(content(folder / "rub_layout.svg"), "clearance"));
+  EXPECT_EQ(whirl({"plot", "rub.toml", "layout", "--which", "x"}).status, 2);
+}
+
+// Ranges, names and panels of one's own; wrong ones say what there is, and write nothing.
+TEST_F(Plot, TakesRangesAndNamesOfOnesOwn) {
+  const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  make({"unbalance", disks, "--speeds", "0:8000:100rpm"}, "u.h5");
+  ASSERT_EQ(whirl({"plot", "u.h5", "bode", "--xlim", "20:60Hz", "--panels", "amplitude", "--log",
+                   "y", "--xlabel", "Drehzahl [rpm]", "--title", "Läufer", "--labels", "Scheibe",
+                   "--size", "85x60mm", "--out", "b.svg"})
+                .status,
+            0);
+  const std::string svg = content(folder / "b.svg");
+  for (const char* part : {">Drehzahl [rpm]<", ">Läufer<", ">Scheibe<", ">2000<"}) {
+    EXPECT_TRUE(has(svg, part)) << part;
+  }
+  EXPECT_FALSE(has(svg, "phase"));
+  const Outcome wrong = whirl({"plot", "u.h5", "bode", "--ylim", "0:3kN", "--out", "w.svg"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(has(wrong.err, "--ylim 0:3kN: no axis is in kN; y is amplitude p-p [")) << wrong.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "w.svg"));
+  EXPECT_TRUE(has(whirl({"plot", "u.h5", "bode", "--marker-size", "big"}).err, "expected points"));
+  EXPECT_TRUE(has(whirl({"plot", "u.h5", "--xlim", "0:1"}).err, "which kind of figure?"));
 }
 
 // PNG and PDF are made by rsvg-convert; without it the package is named and nothing is left behind.

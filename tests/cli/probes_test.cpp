@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
 
 #include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/run_result.hpp"
@@ -95,6 +96,47 @@ TEST_F(Probes, TellUnbalanceResponses) {
   EXPECT_EQ(variants("bode", "r.h5"),
             (std::vector<std::string>{"probes in mil", "probes in um", "x"}));
   EXPECT_EQ(variants("polar", "r.h5"), (std::vector<std::string>{"1X, 45°", "1Y, 135°", "rotor"}));
+}
+
+// The orbit is a circle: the high spot at phase 0 is where the shaft is, whatever probe reads it,
+// and a probe further along the rotation by an angle reads it later by that.
+TEST_F(Probes, AreDrawnAsInstrumentsShowThem) {
+  result({"unbalance", "rotor.toml", "--speeds", "20:200:20rad/s", "--out", "r.h5"});
+  const ResultView view(folder / "r.h5");
+  const std::vector<Figure> polar = figures("polar", view), bode = figures("bode", view);
+  constexpr double mil = 25.4e-6, um = 1e-6, rounding = 1e-9 * e / zeta;
+  for (const auto& [number, unit, degrees] : {std::tuple{0u, mil, 45.0}, {1u, um, 135.0}}) {
+    SCOPED_TRACE(degrees);
+    const std::vector<Curve>& curves = polar.at(number).panels.at(0).curves;
+    const auto loop = std::find_if(curves.begin(), curves.end(),
+                                   [](const Curve& c) { return c.along_title == "speed"; });
+    ASSERT_NE(loop, curves.end());
+    for (std::size_t k = 0; k < loop->x.size(); ++k) {
+      const auto expected = 2.0 * circle(loop->along[k] * pi / 30.0);
+      EXPECT_NEAR(loop->x[k] * unit, expected.real(), rounding);
+      EXPECT_NEAR(loop->y[k] * unit, expected.imag(), rounding);
+    }
+    const auto probe = std::find_if(curves.begin(), curves.end(),
+                                    [](const Curve& c) { return c.name == "probe"; });
+    ASSERT_NE(probe, curves.end());
+    EXPECT_NEAR(std::atan2(probe->y[0], probe->x[0]) * 180.0 / pi, degrees, 1e-9);
+
+    const Panel& phase = bode.at(number).panels.at(1);
+    EXPECT_EQ(phase.y.title, "phase lag [deg]");
+    const Curve& lag = phase.curves.at(0);
+    for (std::size_t k = 0; k < lag.x.size(); ++k) {
+      if (!std::isfinite(lag.y[k]) || std::abs(lag.y[k]) == 180.0) continue;  // at the edges
+      const double late = degrees - std::arg(circle(lag.x[k] * pi / 30.0)) * 180.0 / pi;
+      EXPECT_NEAR(std::remainder(lag.y[k] - late, 360.0), 0.0, 1e-6);
+      EXPECT_LE(std::abs(lag.y[k]), 180.0);
+    }
+  }
+  // beyond omega the lag of the second probe passes 180 degrees: the line leaves and comes back
+  const std::vector<double>& y = bode.at(1).panels.at(1).curves.at(0).y;
+  const auto gap = std::find_if(y.begin(), y.end(), [](double v) { return std::isnan(v); });
+  ASSERT_NE(gap, y.end());
+  EXPECT_EQ(*(gap - 1), 180.0);
+  EXPECT_EQ(*(gap + 1), -180.0);
 }
 
 TEST_F(Probes, TellMotions) {
@@ -300,7 +342,7 @@ TEST_F(Probes, TellSweeps) {
   EXPECT_TRUE(has(whirl(call).out, "Along the probes, peak to peak"));
 
   EXPECT_EQ(variants("bifurcation", "s.h5"),
-            (std::vector<std::string>{"1X, 45°", "1Y, 135°", "rotor"}));
+            (std::vector<std::string>{"1X, 45°", "1Y, 135°", "rotor", "forces on supports"}));
   for (const char* kind : {"cascade", "spectral_map"}) {
     EXPECT_EQ(variants(kind, "s.h5"),
               (std::vector<std::string>{"1X, 45° (up)", "1X, 45° (down)", "1Y, 135° (up)",
@@ -402,7 +444,8 @@ TEST_F(Probes, AreNotInStudiesOfModelsWithoutThem) {
   for (const std::string& name : ResultReader(folder / "s.h5").list("/sweep")) {
     EXPECT_FALSE(has(name, "probe")) << name;
   }
-  EXPECT_EQ(variants("bifurcation", "s.h5"), std::vector<std::string>{"rotor"});
+  EXPECT_EQ(variants("bifurcation", "s.h5"),
+            (std::vector<std::string>{"rotor", "forces on supports"}));
 }
 
 // The sag of 0.98 mm is no motion; seen from the rotor it would be a circle beside which the orbit

@@ -1,6 +1,7 @@
 // report: pages of results.
 
 #include <cstring>
+#include <map>
 #include <regex>
 
 #include "libdyn/linear/unbalance_study.hpp"
@@ -14,6 +15,66 @@ namespace whirl::test {
 namespace report_test {
 
 class Report : public Pictures {};
+
+// A printed report is a PDF or none: where no program can print, nothing is written, not HTML under
+// the name of a PDF, and the packages that can are named.
+TEST_F(Report, WithoutAPrinterThereIsAnErrorAndNoFile) {
+  make({"modes", "rub.toml"}, "m.h5");
+  for (const char* name : {"m.pdf", "M.PDF"}) {
+    const Outcome outcome = wait(start("sh", {"-c", "PATH=/nowhere " + std::string(WHIRL_PROGRAM) +
+                                                        " report m.h5 --out " + name}));
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(has(outcome.err, std::string("cannot write ") + name)) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "Debian package chromium or weasyprint")) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+}
+
+// A browser that numbers no pages is not enough, and one that fails is told with its last words.
+TEST_F(Report, ABrowserThatCannotPrintIsTold) {
+  make({"modes", "rub.toml"}, "m.h5");
+  const auto with_browser = [&](const std::string& script) {
+    std::ofstream(folder / "chromium") << "#!/bin/sh\n" << script;
+    std::filesystem::permissions(folder / "chromium", std::filesystem::perms::owner_all);
+    for (const char* needed : {"timeout", "sh", "echo"}) {
+      std::error_code ignored;
+      std::filesystem::create_symlink(std::string("/usr/bin/") + needed, folder / needed, ignored);
+    }
+    const Outcome outcome = wait(
+        start("sh", {"-c", "PATH=. " + std::string(WHIRL_PROGRAM) + " report m.h5 --out m.pdf"}));
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "m.pdf"));
+    return outcome.err;
+  };
+  EXPECT_TRUE(has(with_browser("echo Chromium 130.0.1\n"), "is of version 130, 131 or later"));
+  EXPECT_TRUE(
+      has(with_browser("case $1 in --version) echo Chromium 140.0.1;; *) echo no room; exit "
+                       "7;; esac\n"),
+          "chromium failed: no room"));
+}
+
+// The head of a page is that of the model's [report], and of --cover instead.
+TEST_F(Report, APageHasTheWordsOfItsCover) {
+  write("signed.toml",
+        std::string(rubbing) + "[report]\ntitle = \"Rub <1>\"\nauthor = \"J. Jeffcott\"\n");
+  make({"modes", "signed.toml"}, "m.h5");
+  ASSERT_EQ(whirl({"report", "m.h5", "--cover", "revision=B", "--cover", "author=A. Stodola",
+                   "--cover", "date=2026-11-29"})
+                .status,
+            0);
+  const json cover = page_data(content(folder / "m.html"))["cover"];
+  EXPECT_EQ(cover["title"], "Rub <1>");
+  std::map<std::string, std::string> lines;
+  for (const json& line : cover["lines"]) lines[line[0]] = line[1];
+  EXPECT_EQ(lines["Author"], "A. Stodola");
+  EXPECT_EQ(lines["Revision"], "B");
+  EXPECT_EQ(lines["Date"], "2026-11-29");
+  EXPECT_EQ(lines["Model, SHA-256"].size(), 64u);
+  const Outcome wrong = whirl({"report", "m.h5", "--cover", "auther=A"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(has(wrong.err, "--cover auther=A: expected KEY=VALUE")) << wrong.err;
+  EXPECT_TRUE(has(wrong.err, "author, checked_by")) << wrong.err;
+}
 
 /// Numbers of an array of a page: "f64:" and base64 of little-endian doubles.
 std::vector<double> numbers_of(const std::string& text) {

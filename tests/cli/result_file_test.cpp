@@ -7,6 +7,7 @@
 
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/support/manual.hpp"
 
 namespace whirl::test {
 namespace result_file_test {
@@ -103,7 +104,7 @@ print("\n".join(datasets))
 
 TEST_F(Results, AreReadByH5pyAndListedInTheManual) {
   if (!has_h5py()) GTEST_SKIP() << "h5py is not installed";
-  const std::string manual = content(WHIRL_SOURCE_DIR "/docs/command-line.md");
+  const std::string manual = command_line_manual();
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
     make(verb);

@@ -8,6 +8,7 @@
 
 #include "libverbs/command/field_words.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/support/manual.hpp"
 
 namespace whirl::test {
 namespace verbs_test {
@@ -57,7 +58,7 @@ std::string written(const OptionSpec& option) {
 }
 
 std::string manual() {
-  return content(WHIRL_SOURCE_DIR "/docs/command-line.md");
+  return command_line_manual();
 }
 
 TEST(Verbs, AreWhole) {
@@ -191,7 +192,7 @@ TEST(Manual, ListsTheOptionsOfEveryVerb) {
       SCOPED_TRACE(std::string(verb.name) + " " + written(option));
       const auto row = meanings.find({std::string(verb.name), written(option)});
       if (row == meanings.end()) {
-        ADD_FAILURE() << "is not in docs/command-line.md";
+        ADD_FAILURE() << "is not in docs/options.md";
         continue;
       }
       const std::string meaning = row->second, value(option.otherwise);
@@ -202,7 +203,7 @@ TEST(Manual, ListsTheOptionsOfEveryVerb) {
     }
   }
   for (const auto& [of, meaning] : meanings) {
-    ADD_FAILURE() << of.first << " has no " << of.second << ", as docs/command-line.md says";
+    ADD_FAILURE() << of.first << " has no " << of.second << ", as docs/options.md says";
   }
 }
 

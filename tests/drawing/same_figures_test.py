@@ -8,6 +8,7 @@ of curves and their strokes; markers; colors of cells; numbers of color scales; 
 and the legend in its order.
 """
 
+import cmath
 import json
 import os
 import pathlib
@@ -426,6 +427,22 @@ angle = "135 deg"
 """
 
 
+def run_up_record(folder):
+    """A run-up of the Jeffcott rotor by its closed form, seen by two probes."""
+    rows = ["time [s],x [um],y [um],key [V]"]
+    for j in range(12 * 500):
+        t = j / 500
+        turns, speed = 5 * t + 1.5 * t * t, 5 + 3 * t
+        r = speed / 21.6
+        z = (100 * r * r / (1 - r * r + 0.074j * r) + 5j) * cmath.exp(2j * cmath.pi * turns) + 800 + 4j * t
+        key = 5 if turns % 1 < 0.15 else 0
+        rows.append(f"{t},{z.real:.4f},{z.imag:.4f},{key}")
+    (folder / "run_up.csv").write_text("\n".join(rows) + "\n")
+    (folder / "two.toml").write_text('[keyphasor]\nchannel = "key"\n' + "".join(
+        f'[[probe]]\nname = "{name}"\nat = "250 mm"\nangle = "{angle} deg"\n' for name, angle in (("x", 0), ("y", 90))))
+    return folder / "run_up.csv"
+
+
 def results(whirl, repository, folder):
     """Result files with figures of every kind: those that fuzzing starts from, and of verbs that it has none of."""
     files = []
@@ -437,15 +454,21 @@ def results(whirl, repository, folder):
     probed.write_text((models / "two_disk_mac.toml").read_text() + PROBED)
     rig, measured_by = models / "two_disk_mac.toml", folder / "probes.toml"
     measured_by.write_text(PROBED[PROBED.index("[[probe]]"):] + '[keyphasor]\nchannel = "key"\n')
+    balanced_by = folder / "balance.toml"
+    balanced_by.write_text('angles = "with rotation"\n[[plane]]\nname = "left"\nnode = 4\nradius = "120 mm"\n'
+                           '[[probe]]\nname = "left"\nnode = 4\nangle = 0\n')
     for name, *words in (
         ("rig", "simulate", rig, "--discard", "20", "--revolutions", "64", "--measure", measured_by,
          "--measured-out", folder / "run.csv"),
         ("measured", "identify", rig, "--measured", folder / "run.csv", "--probes", measured_by, "--orders", "1,2",
          "--running-modes"),
+        ("run_up", "identify", models / "jeffcott.toml", "--measured", run_up_record(folder), "--probes", folder / "two.toml",
+         "--orders", "1", "--slow-roll", "300rpm", "--model-curve", "fit", "--trend", "--alarm", "500um", "--zones", "shaft"),
         ("fitted", "fit", rig, "--measured", folder / "run.csv", "--probes", measured_by, "--free",
          "contact.ring.stiffness", "--revolutions", "4"),
         ("bench", "bench", models / "jeffcott_stator.toml", "--methods", "dop853,rk4", "--tolerances", "1e-4,1e-6",
          "--discard", "2", "--revolutions", "2"),
+        ("balanced", "balance", rig, "--speed", "1500rpm", "--runs", balanced_by),
         ("long", "simulate", models / "dropped_rotor.toml", "--discard", "0", "--revolutions", "128"),
         ("disks", "unbalance", models / "two_disk_mac.toml", "--speeds", "0:8000:400rpm"),
         ("forces", "unbalance", probed, "--speeds", "0:8000:400rpm"),

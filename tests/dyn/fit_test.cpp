@@ -13,6 +13,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/random.hpp"
+#include "libdata/fit/fit_spread.hpp"
 #include "libdata/fit/model_source.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 #include "tests/support/scenes.hpp"
@@ -246,6 +247,19 @@ TEST(Fit, FindsOffsets) {
   }
   EXPECT_NEAR(found.parameters[0].value, rig.truth.kC,
               chance * found.parameters[0].standard_deviation);
+}
+
+// Of e_i = phi e_(i-1) + noise the integrated autocorrelation is (1 + phi) / (1 - phi).
+TEST(FitSpread, CountsSamplesThatHangTogether) {
+  for (const double phi : {0.0, 0.5, 0.8}) {
+    std::mt19937_64 random(3);
+    Vec e(40'000);
+    double last = 0.0;
+    for (double& value : e) value = last = phi * last + random_normal(random);
+    const double time = (1.0 + phi) / (1.0 - phi);
+    EXPECT_NEAR(correlation_time(e), time, 0.15 * time) << phi;
+  }
+  EXPECT_EQ(correlation_time(Vec(Vec::Ones(100))), 1.0);
 }
 
 TEST(Fit, SaysWhereAParameterIsHeldByItsBound) {

@@ -385,6 +385,136 @@ TEST(LateralUnbalance, IsWhatTheJournalsCarryNextToEachAntinode) {
   EXPECT_NEAR(beyond[0].moment, unit(100.0), 1e-15);
 }
 
+/// A wheel between bearings at 0.2 and 1.0 m of a shaft with a coupling at its right end, 1.2 m.
+Model machine_with_coupling(double wheel, double coupling) {
+  Model model;
+  Structure& s = model.structure;
+  s.shaft = {test::cylinder(1.2, 0.08, 12)};
+  s.disks = {{.name = "wheel", .at = node(7), .m = wheel},
+             {.name = "coupling", .at = node(13), .m = coupling}};
+  s.bearings = {test::bearing(node(3), test::isotropic(1e8, 1e4)),
+                test::bearing(node(11), test::isotropic(1e8, 1e4))};
+  s.bearings[0].name = "left";
+  s.bearings[1].name = "right";
+  model.speed = 6000.0 * rpm;
+  model.has_speed = true;
+  return model;
+}
+
+// The coupling has twice 6350 W / N of what hangs over beside the journal, itself and 0.2 m of the
+// shaft; the left end, without a disk, has no case. The mode is the one that moves the end most.
+TEST(LateralUnbalance, IsAtCouplingsToo) {
+  const Model model = machine_with_coupling(60.0, 4.0);
+  const LateralReport r = lateral_report(model, options(5000.0, 6000.0)).report;
+  ASSERT_GE(r.cases.size(), 2u);
+  for (std::size_t i = 0; i + 1 < r.cases.size(); ++i) {
+    EXPECT_EQ(r.cases[i].places, UnbalancePlaces::antinodes);
+  }
+  EXPECT_EQ(r.cases.back().places, UnbalancePlaces::overhung_end);
+  const LateralPlane& plane = r.planes.back();
+  EXPECT_EQ(plane.of_case, static_cast<int>(r.cases.size()) - 1);
+  EXPECT_EQ(plane.station, "13 coupling");
+  const double hanging = 4.0 + 7810.0 * pi / 4.0 * 0.08 * 0.08 * 0.2;
+  EXPECT_NEAR(plane.moment, 2.0 * 6350e-6 * hanging / 6000.0, 1e-12);
+  EXPECT_EQ(plane.phase, 0.0);
+}
+
+// An overhung wheel at which a mode has its only antinode has a case already, with more unbalance.
+TEST(LateralUnbalance, IsAtAnOverhungWheelOnce) {
+  const Model model = machine_with_coupling(1.0, 80.0);
+  const LateralReport r = lateral_report(model, options(5000.0, 6000.0)).report;
+  for (const LateralCase& c : r.cases) EXPECT_EQ(c.places, UnbalancePlaces::antinodes);
+  EXPECT_TRUE(std::ranges::any_of(
+      r.planes, [](const LateralPlane& p) { return p.station == "13 coupling"; }));
+}
+
+/// Checks of a machine, less those that depend on the speeds of other machines.
+std::vector<LateralCheck> checks_of(const LateralReport& report, const std::string& variant) {
+  std::vector<LateralCheck> all;
+  for (const LateralCheck& c : report.checks) {
+    if (c.variant == variant && c.rule != LateralRule::vibration &&
+        c.rule != LateralRule::running_clearance) {
+      all.push_back(c);
+    }
+  }
+  return all;
+}
+
+// A machine has the checks that it has alone, whatever others are analyzed beside it.
+TEST(LateralReport, AnalyzesVariantsBesideTheModel) {
+  const Model model = StiffRotor{}.model();
+  StiffRotor light;
+  light.c /= 2.0;
+  const LateralOptions how = options(8000.0, 9000.0);
+  const LateralReport both = lateral_report(model, how, {{"worn", light.model()}}).report;
+  for (const auto& [variant, of] : {std::pair("", model), {"worn", light.model()}}) {
+    const auto alone = checks_of(lateral_report(of, how).report, ""),
+               beside = checks_of(both, variant);
+    ASSERT_EQ(beside.size(), alone.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_EQ(beside[i].rule, alone[i].rule);
+      EXPECT_EQ(beside[i].verdict, alone[i].verdict);
+      if (std::isfinite(alone[i].found)) {
+        EXPECT_DOUBLE_EQ(beside[i].found, alone[i].found);
+      }
+    }
+  }
+  EXPECT_LT(both.log_decrement, lateral_report(model, how).report.log_decrement);
+}
+
+/// A seal whose cross-coupled stiffness rises to q between two speeds.
+Connection rising_seal(double from, double to, double q) {
+  BearingCoefficients none = test::isotropic(0.0), crossed = none;
+  crossed.K << 0.0, q, -q, 0.0;
+  Connection seal = test::bearing(
+      node(3), TableBearing{{.speed = {from * rpm, to * rpm}, .rows = {none, crossed}}});
+  seal.name = "eye";
+  return seal;
+}
+
+// Stable at the maximum speed, unstable below the trip speed: only a threshold tells.
+TEST(LateralReport, FailsAVariantThatIsUnstableBeforeTheTripSpeed) {
+  const StiffRotor rotor;
+  const double bears = 2.0 * rotor.c * rotor.omega();  // q = c omega
+  Model worn = rotor.model();
+  worn.structure.seals = {rising_seal(9010.0, 9300.0, 4.0 * bears)};
+  const LateralReport r =
+      lateral_report(rotor.model(), options(8000.0, 9000.0), {{"worn", worn}}).report;
+  const auto threshold = std::find_if(r.checks.begin(), r.checks.end(), [](const auto& c) {
+    return c.place == "threshold of instability";
+  });
+  ASSERT_NE(threshold, r.checks.end());
+  EXPECT_EQ(threshold->variant, "worn");
+  EXPECT_EQ(threshold->verdict, Verdict::failed);
+  EXPECT_GT(threshold->speed, 9010.0 * rpm);
+  EXPECT_LT(threshold->speed, 9300.0 * rpm);
+  EXPECT_FALSE(r.is_passed());
+}
+
+// Without seals and with all of them: the decrement that level I has there at Q = 0.
+TEST(LateralReport, PutsSealsInOneByOne) {
+  const StiffRotor rotor;
+  Model model = rotor.model();
+  const double without = lateral_report(model, options(8000.0, 9000.0)).report.log_decrement;
+  model.structure.seals = {rising_seal(8000.0, 9000.0, 0.5 * 2.0 * rotor.c * rotor.omega())};
+  const LateralStudy study = lateral_report(model, options(8000.0, 9000.0));
+  const std::vector<LevelTwoStep>& steps = study.parts.level_two;
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[1].parts, "with seal eye");
+  EXPECT_NEAR(steps[0].log_decrement, without, 1e-9);
+  EXPECT_NEAR(steps[1].log_decrement, study.report.log_decrement, 1e-9);
+  EXPECT_LT(steps[1].log_decrement, 0.6 * without);  // half of what it bears
+  const LateralCheck& check = check_of(study.report, LateralRule::level_two);
+  EXPECT_EQ(check.found, steps[1].log_decrement);
+}
+
+TEST(LateralReport, RefusesVariantsWithOtherProbes) {
+  const Model model = StiffRotor{}.model();
+  Model other = model;
+  other.structure.probes = {{.name = "p", .at = node(2)}};
+  EXPECT_THROW(lateral_report(model, options(8000.0, 9000.0), {{"other", other}}), ModelError);
+}
+
 TEST(LateralReport, SaysWhatItNeeds) {
   Model model = StiffRotor{}.model();
   model.structure.bearings.clear();

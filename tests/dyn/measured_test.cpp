@@ -7,8 +7,10 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "libbase/error.hpp"
+#include "libbase/numerics/random.hpp"
 #include "libdata/measured/measured_identification.hpp"
 #include "libdata/measured/order_tracking.hpp"
 #include "libdata/measured/station_motion.hpp"
@@ -357,6 +359,7 @@ TEST(ProbeReadings, TellRowsThatAreLeftOutOnce) {
 struct RunUp {
   double rate = 2000.0, length = 20.0;  ///< [1/s], [s]
   double slow = 5.0, rise = 2.0;        ///< [1/s], [1/s^2]
+  bool has_late_pulses = false;         ///< at the next sample, as a logger has them
 
   double angle(double t) const { return 2.0 * pi * (slow * t + 0.5 * rise * t * t); }
   ProbeReadings readings(const std::function<double(double)>& reading) const {
@@ -370,7 +373,7 @@ struct RunUp {
     for (int i = 0;; ++i) {
       const double t = (-slow + std::sqrt(slow * slow + 2.0 * rise * i)) / rise;
       if (t > length) break;
-      pulses.push_back(t);
+      pulses.push_back(has_late_pulses ? std::ceil(t * rate - 1e-9) / rate : t);
     }
     r.clock.emplace(pulses, KeyPhasor{}, r.notes);
     return r;
@@ -422,6 +425,38 @@ TEST(OrderTracking, TakesTheSlowRollOffAResonance) {
     const Complex expected = response(found.speed(k)) - response(*found.slow_roll);
     EXPECT_NEAR(std::abs(c(k) - expected), 0.0, window * 5.0) << found.speed(k) / (2.0 * pi);
   }
+}
+
+// Pulses that are told at the next sample: the speed ascends all the same to a thousandth, and the
+// resonance is one peak, as high and as sharp as with exact ones.
+TEST(OrderTracking, PulsesAtSamplesMakeNoPeaks) {
+  constexpr double zeta = 0.03, omega = 2.0 * pi * 40.0;
+  const RunUp run{
+      .rate = 5000.0, .length = 60.0, .slow = 8.0, .rise = 1.2, .has_late_pulses = true};
+  std::mt19937_64 random(5);
+  const ProbeReadings readings = run.readings([&](double a) {
+    const double speed = 2.0 * pi * std::sqrt(run.slow * run.slow + run.rise * a / pi);
+    const double r = speed / omega;
+    const Complex response = r * r / Complex(1.0 - r * r, 2.0 * zeta * r);
+    return (response * std::polar(1.0, a)).real() + 0.05 * random_normal(random);
+  });
+  const OrderTracking found = track_orders(readings, {.orders = {1.0}});
+  for (Eigen::Index k = 1; k < found.speed.size(); ++k) {
+    EXPECT_GT(found.speed(k), 0.999 * found.speed(k - 1)) << found.time(k);
+  }
+  ASSERT_EQ(found.peaks.size(), 1u);
+  const OrderPeak& peak = found.peaks[0];
+  EXPECT_NEAR(peak.speed, omega, 0.02 * omega);
+  EXPECT_LT(peak.amplitude, 1.02 * found.curves[0].response.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(peak.amplification(), 0.5 / zeta, 0.15 * 0.5 / zeta);
+}
+
+// Noise alone has no peaks.
+TEST(OrderTracking, NoiseAloneHasNoPeaks) {
+  std::mt19937_64 random(6);
+  const RunUp run{.length = 60.0, .has_late_pulses = true};
+  const ProbeReadings readings = run.readings([&](double) { return random_normal(random); });
+  EXPECT_TRUE(track_orders(readings, {.orders = {1.0, 2.0}}).peaks.empty());
 }
 
 TEST(OrderTracking, SaysWhatIsTooShort) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "libdyn/motions/touches.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::simulate_test {
@@ -61,6 +62,29 @@ TEST(Simulate, RecordsTheForcesOfItsContacts) {
 }
 
 // Discarding is the same as running before; recording changes nothing.
+// Two contacts that touch in turn; the last touch is still there at the end.
+TEST(ContactTouches, StandInTheOrderInWhichTheyBegin) {
+  Recording r;
+  r.contacts.resize(2);
+  r.contacts[0].name = "left";
+  r.contacts[1].name = "right";
+  r.time = Vec::LinSpaced(8, 0.0, 0.7);
+  r.normal = Mat::Zero(2, 8);
+  r.normal.row(0) << 0, 5, 7, 0, 0, 0, 2, 3;
+  r.normal.row(1) << 0, 0, 1, 0, 9, 0, 0, 0;
+  const std::vector<ContactTouch> all = touches_of(r);
+  ASSERT_EQ(all.size(), 4u);
+  const char* names[]{"left", "right", "right", "left"};
+  const double begins[]{0.1, 0.2, 0.4, 0.6}, ends[]{0.2, 0.2, 0.4, 0.7}, largest[]{7, 1, 9, 3};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].contact, names[i]);
+    EXPECT_NEAR(all[i].begins, begins[i], 1e-12);
+    EXPECT_NEAR(all[i].ends, ends[i], 1e-12);
+    EXPECT_EQ(all[i].largest, largest[i]);
+  }
+  EXPECT_EQ(touches_of(r, 1).front().begins, r.time(6));
+}
+
 TEST(Simulate, DiscardsRevolutionsBefore) {
   const Scene scene = test::P1.scene();
   const MotionState start = test::start_of(test::P1.model(), scene);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "libfe/analyses/critical.hpp"
 #include "tests/support/rotors.hpp"
 
@@ -30,6 +32,11 @@ TEST(Antinodes, OfAUniformShaftAreThoseOfSines) {
       EXPECT_NEAR(assembler.mesh().z[static_cast<std::size_t>(found[i].node)], z, 1e-9) << n;
       const double sign = i % 2 == 0 ? 1.0 : -1.0;
       EXPECT_NEAR(found[i].deflection * found[0].deflection, sign, 1e-6) << n;
+    }
+    for (int node = 0; node < assembler.mesh().nodes(); ++node) {
+      const double z = assembler.mesh().z[static_cast<std::size_t>(node)];
+      EXPECT_NEAR(forward_share(assembler.mesh(), system.dofs, c.shape, node),
+                  std::abs(std::sin(static_cast<double>(n) * test::pi * z / L)), 1e-6);
     }
   }
   EXPECT_EQ(n, 3u);

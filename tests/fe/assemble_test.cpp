@@ -398,6 +398,11 @@ TEST(Gravity, LoadAddsUpToTheWeight) {
   EXPECT_NEAR(fx, 0.0, rounding * weight);
 }
 
+/// What is missing in the equations of the full vector under a load that lasts.
+Vec support_forces(const Assembler& assembler, const Vec& q, const Vec& load) {
+  return assembler.full(0.0, 0.0).K * (assembler.dofs().T * q) - load;
+}
+
 // A force F at a quarter of the span: supports carry 3 F / 4 and F / 4, nothing else is held.
 TEST(SupportForces, OfRigidBearingsFollowTheLever) {
   const Structure structure = test::pinned(test::cylinder(1.0, 0.04, 4));
@@ -409,7 +414,7 @@ TEST(SupportForces, OfRigidBearingsFollowTheLever) {
   Vec expected = Vec::Zero(s.dofs.full_size);
   expected(4 * 0 + 0) = -600.0;
   expected(4 * 4 + 0) = -200.0;
-  EXPECT_LT(largest(assembler.support_forces(0.0, q, load) - expected), solves * 1e6);
+  EXPECT_LT(largest(support_forces(assembler, q, load) - expected), solves * 1e6);
 }
 
 // A weight W at the end of a cantilever: the clamp pushes up with W and turns with -W L about x.
@@ -420,7 +425,7 @@ TEST(SupportForces, OfAClampHoldTheMoment) {
   Vec load = Vec::Zero(s.dofs.full_size);
   load(4 * 2 + 1) = -1000.0;
   const Vec q = SparseLu(s.K).solve(Vec(s.dofs.T.transpose() * load));
-  const Vec force = assembler.support_forces(0.0, q, load);
+  const Vec force = support_forces(assembler, q, load);
   EXPECT_NEAR(force(Y), 1000.0, solves * 1e3);
   EXPECT_NEAR(force(THETA_X), -700.0, solves * 1e3);
 }

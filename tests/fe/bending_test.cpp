@@ -51,6 +51,31 @@ TEST(BendingLine, OfAUniformShaftBetweenPinsIsTheClosedForm) {
   }
 }
 
+// M r / I, and 4 V / 3 A of a cylinder, 2 V / A of a thin tube.
+TEST(BendingLine, StressesAreThoseOfTheSection) {
+  for (const double bore : {0.0, 0.05, 0.0999}) {
+    Segment shaft = test::cylinder(1.5, 0.1, 3);
+    shaft.left.inner = shaft.right.inner = bore;
+    Structure s = test::pinned(shaft);
+    s.gravity = g;
+    const BendingLine line = line_of(s);
+    const Section& section = shaft.left;
+    const double r = 0.5 * section.outer, q = 0.5 * section.inner;
+    for (Eigen::Index i = 0; i < line.z.size(); ++i) {
+      const double M = line.moment.row(i).norm(), V = line.shear.row(i).norm();
+      EXPECT_NEAR(line.bending_stress(i), M * r / section.I(), 1e-9 * M * r / section.I() + 1e-6);
+      const double shape = (r * r + r * q + q * q) / (r * r + q * q);
+      EXPECT_NEAR(line.shear_stress(i), 4.0 * V / (3.0 * section.A()) * shape,
+                  1e-9 * V / section.A() + 1e-6);
+    }
+    if (bore == 0.0) {
+      const double q0 = shaft.material.rho * section.A() * g, largest = q0 * 1.5 * 1.5 / 8.0;
+      EXPECT_NEAR(line.bending_stress.maxCoeff(), 32.0 * largest / (3.14159265358979 * 1e-3),
+                  1e-2 * largest / 1e-4);
+    }
+  }
+}
+
 // A disk overhung by a beyond a span L of a massless shaft: M = -W a z / L up to the near bearing,
 // -W (L + a - z) beyond it; V = +W a / L, then -W.
 TEST(BendingLine, JumpsAtBearingsAsTheLeverSays) {

@@ -67,4 +67,24 @@ TEST(RotorProperties, HaveTheTransverseInertiaOfACylinderAndADisk) {
   EXPECT_NEAR(p.Id, own + m * a * a + 0.2 + 30.0 * b * b, rounding * p.Id);
 }
 
+// Left and right of a cut make the whole but for a disk at the cut; a cone that is cut is two
+// cones.
+TEST(RotorProperties, MassBeyondAPlaceIsThatOfWhatIsThere) {
+  const double L = 0.5, d1 = 0.04, d2 = 0.1, cut = 0.3, rho = 7810.0;
+  const Structure s{.shaft = {test::cone(L, d1, d2, 3), test::cylinder(0.2, d2, 2)},
+                    .disks = {{.at = at(0.7), .m = 3.0}, {.at = at(0.5), .m = 11.0}}};
+  const Mesh mesh = make_mesh(s);
+  const auto frustum = [&](double length, double a, double b) {
+    return rho * pi * length * (a * a + a * b + b * b) / 12.0;
+  };
+  const double d = d1 + (d2 - d1) * cut / L;
+  EXPECT_NEAR(mass_beyond(s, mesh, cut, false), frustum(cut, d1, d), rounding);
+  const double cylinder = rho * pi / 4.0 * d2 * d2 * 0.2;
+  EXPECT_NEAR(mass_beyond(s, mesh, cut, true), frustum(L - cut, d, d2) + cylinder + 14.0,
+              14.0 * rounding);
+  EXPECT_NEAR(mass_beyond(s, mesh, 0.5, true), cylinder + 3.0, 3.0 * rounding);
+  EXPECT_NEAR(mass_beyond(s, mesh, 0.5, false), frustum(L, d1, d2), rounding);
+  EXPECT_NEAR(mass_beyond(s, mesh, 0.7, true), 0.0, rounding);
+}
+
 }  // namespace whirl::properties_test

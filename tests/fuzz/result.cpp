@@ -37,7 +37,7 @@ void use(const fs::path& path, const fs::path& folder) {
     write_csv_tables(result->file, folder / "table");
     std::vector<std::unique_ptr<ResultView>> results;
     results.push_back(std::move(result));
-    report_page(results, {});
+    report_page(results, cover_of(results, {}));
   } catch (const FileError&) {
   } catch (const ModelError&) {
   } catch (const NumericalError&) {

@@ -302,6 +302,26 @@ TEST(BearingTable, LeavesOutWhatPeopleWriteAroundIt) {
 
 // ---- one cause is told once, where it is ----
 
+TEST(BearingTable, TitlesMayBeginWithADigitAndTotalsAreNoRows) {
+  const CoefficientTable t = table(
+      "5 pad bearing LBP\nDate: 3/4/2024\n2.5 in journal\nrpm, Kxx (lb/in), Kyy (lb/in)\n"
+      "4000, 2500, 2500\n8000, 2000, 2000\ntotal weight, 3181,\n");
+  ASSERT_EQ(t.rows.size(), 2u);
+  EXPECT_NEAR(t.speed[1], 8000 * rpm, 1e-9);
+}
+
+TEST(BearingTable, DatesAboveAndStatisticsBelowAreNoRows) {
+  for (const std::string date : {"2026-11-29,14:30", "29.11.2026 14:30", "11/29/2026", "1-2-26"}) {
+    const CoefficientTable t = table(date + "\nrpm,kxx,kyy\n4000,2,3\n8000,4,5\n" +
+                                     "Mean,3,4\nStd. deviation,1,1\nMax,4,5\n");
+    ASSERT_EQ(t.rows.size(), 2u) << date;
+    EXPECT_NEAR(t.speed[1], 8000 * rpm, 1e-9);
+  }
+  // numbers that are no dates
+  EXPECT_NE(problems("1000.5,2,3\nrpm,kxx,kyy\n5000,1,2\n").find("found numbers"),
+            std::string::npos);
+}
+
 TEST(BearingTable, OneCauseIsToldOnceWithItsRows) {
   EXPECT_EQ(
       problems("rpm;kxx\n4,000;1\n8,000;2\n12,000;3\n"),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/io/result_folder.hpp"
 
@@ -111,6 +112,18 @@ TEST_F(Columns, WriteDatasetsWithTheirAxes) {
 }
 
 // Of an empty list the datasets are there with the sizes of their other dimensions.
+// A row that knows nothing of a column leaves the others at their places.
+TEST_F(Columns, RowsThatKnowNothingKeepTheirPlace) {
+  Result r = example();
+  r.rows_of_it[0].over.clear();
+  write(r);
+  const auto after = read_result<Result>(ResultReader(path));
+  ASSERT_EQ(after.rows_of_it.size(), 2u);
+  for (const double unknown : after.rows_of_it[0].over) EXPECT_TRUE(std::isnan(unknown));
+  EXPECT_EQ(after.rows_of_it[1].over[0], 4.0);
+  EXPECT_EQ(after.rows_of_it[1].over[1], 5.0);
+}
+
 TEST_F(Columns, WriteEmptyRows) {
   Result r = example();
   r.rows_of_it.clear();

@@ -90,7 +90,7 @@ TEST(Layout, SealsHaveASignOfTheirOwn) {
 // the legend says what it is. With its size it is drawn as one by its shape.
 TEST(Layout, ADiskByItsMassIsASymbol) {
   const std::string text = draw(all_parts);
-  EXPECT_EQ(count(text, "╎ disk, size not given (symbol)"), 1u) << text;
+  EXPECT_EQ(count(text, "╎ disk, size not given (not to scale)"), 1u) << text;
   EXPECT_GE(count(text, "╎"), 3u) << text;  // above, below, and the legend
   EXPECT_LE(count(text, "╎"), 5u) << text;
   const std::string sized = draw(std::string(all_parts) +

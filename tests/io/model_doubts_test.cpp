@@ -49,6 +49,24 @@ TEST(ModelDoubts, MillimetersWithoutTheirUnitAreMeters) {
       "is one of them in another unit?\n");
 }
 
+TEST(ModelDoubts, SizesThatDoNotGoTogether) {
+  const std::string disk =
+      "[[disk]]\nname = \"d\"\nat = 0.2\nmaterial = \"steel\"\nouter_diameter = 0.4\nwidth = ";
+  EXPECT_EQ(doubts(rotor("1", "0.1", disk + "0.3\n")), "");
+  EXPECT_EQ(
+      doubts(rotor("1", "0.1", disk + "0.5\n")),
+      "m:21:9: disk.d.width: the disk is 500 mm wide and reaches over bearing 1, 200 mm beside "
+      "its middle\n");
+  EXPECT_EQ(doubts(rotor("1", "0.1", disk + "1.5\n")),
+            "m:21:9: disk.d.width: the disk is 1.5 m wide, the shaft 1 m long\n");
+  const std::string contact =
+      "[[contact]]\nname = \"c\"\nat = 0.5\nstiffness = 1e6\nclearance = \"60 mm\"\n";
+  EXPECT_EQ(doubts(rotor("1", "0.1", contact)),
+            "m:20:13: contact.c.clearance: 60 mm is more than the radius of the shaft there, 50 "
+            "mm\n");
+  EXPECT_EQ(doubts(rotor("1", "0.13", contact)), "");
+}
+
 TEST(ModelDoubts, DegreesWithoutTheirUnitAreRadians) {
   const std::string probe = "[[probe]]\nname = \"1.5 X\"\nat = 0\nangle = ";
   const std::string force =

@@ -390,6 +390,101 @@ stiffness = 1
   EXPECT_EQ(assembler.point(model.structure.bearings[3].from), (Point{Point::Kind::body, 0}));
 }
 
+/// Two shafts, the second of 0.4 m from 0.1 m on, with further tables.
+std::string two_shafts(const std::string& more) {
+  return R"(
+format = 1
+[operation]
+speed = 100
+[material.steel]
+density = 7800
+youngs_modulus = 211e9
+poisson_ratio = 0.3
+[[rotor]]
+name = "hp"
+ratio = 1.5
+position = "100 mm"
+[[shaft]]
+material = "steel"
+length = 0.6
+outer_diameter = 0.02
+[[shaft]]
+rotor = "hp"
+material = "steel"
+length = 0.4
+outer_diameter = 0.06
+inner_diameter = 0.04
+[[bearing]]
+at = 0
+stiffness = 1e6
+[[bearing]]
+rotor = "hp"
+at = 0.1
+to = "shaft"
+stiffness = 1e6
+)" + more;
+}
+
+TEST(ModelFile, FurtherShafts) {
+  const Model model = parse_model(two_shafts(R"(
+[[disk]]
+rotor = "hp"
+at = 0.3
+mass = 2
+unbalance = { moment = 1e-5 }
+[[body]]
+name = "ring"
+mass = 1
+spins = true
+rotor = "hp"
+[[contact]]
+at = 0.3
+against = "hp"
+clearance = 1e-3
+stiffness = 1e6
+)"));
+  const Structure& s = model.structure;
+  ASSERT_EQ(s.rotors.size(), 1u);
+  EXPECT_EQ(s.rotors[0].ratio, 1.5);
+  EXPECT_EQ(s.rotors[0].z, 0.1);
+  ASSERT_EQ(s.rotors[0].shaft.size(), 1u);
+  EXPECT_EQ(s.rotors[0].shaft[0].length, 0.4);
+  EXPECT_EQ(s.shaft.size(), 1u);
+  EXPECT_EQ(s.disks[0].at.rotor, "hp");
+  EXPECT_EQ(s.unbalances[0].at.rotor, "hp");
+  EXPECT_EQ(s.bodies[0].rotor, "hp");
+  EXPECT_EQ(s.bearings[1].from.rotor, "hp");
+  EXPECT_EQ(s.bearings[1].to.kind, Station::Kind::position);
+  EXPECT_EQ(s.bearings[1].to.rotor, "");
+  EXPECT_EQ(s.bearings[1].to.z, 0.1);
+  EXPECT_EQ(model.contacts[0].against.rotor, "hp");
+  EXPECT_DOUBLE_EQ(model.contacts[0].friction.radius, 0.01);
+}
+
+TEST(ModelFile, SaysWhatIsWrongWithFurtherShafts) {
+  const auto problem = [](const std::string& more) {
+    try {
+      parse_model(two_shafts(more), "m.toml");
+    } catch (const ModelError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  const auto expect = [&](const std::string& more, const std::string& words) {
+    EXPECT_NE(problem(more).find(words), std::string::npos) << problem(more);
+  };
+  expect("[[disk]]\nrotor = \"lp\"\nat = 0.3\nmass = 1\n", "expected one of shaft, hp");
+  expect("[[disk]]\nrotor = \"hp\"\nat = 0.6\nmass = 1\n", "reaches from 100 to 500 mm");
+  expect("[[disk]]\nrotor = \"hp\"\nnode = 2\nmass = 1\n", "goes with at = position");
+  expect("[[bearing]]\nat = 0.3\nto = \"shaft\"\nstiffness = 1\n", "expected another one");
+  expect("[[bearing]]\nnode = 1\nto = \"hp\"\nstiffness = 1\n", "needs at = position");
+  expect("[[body]]\nname = \"b\"\nmass = 1\nrotor = \"hp\"\n", "spins = true");
+  const std::string contact =
+      "[[contact]]\nat = 0.3\nagainst = \"hp\"\nclearance = 1e-3\nstiffness = 1e6\n";
+  EXPECT_EQ(problem(contact), "nothing");
+  expect(contact + "slip = \"forward\"\nfriction = 0.1\n", "always has the sense of the spin");
+}
+
 TEST(ModelFile, AStationBetweenTheNodesAddsOneBehindTheOthers) {
   const Model model = rotor("[[disk]]\nat = \"125 mm\"\nmass = 1\n[[disk]]\nnode = 13\nmass = 1\n");
   const Assembler assembler(model.structure);

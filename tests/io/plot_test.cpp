@@ -49,9 +49,15 @@ TEST(Axis, HasLogarithmicTicksAtPowersOfTen) {
   // where there is no room, only every second or third power is labelled, and nothing in between
   EXPECT_EQ(labels({Scale::logarithmic, 1e-12, 1e0}, 5),
             (Labels{"10^{−12}", "10^{−9}", "10^{−6}", "10^{−3}", "10^{0}"}));
+  // a range that rounding cannot tell from a point ends, and has none
+  for (const double width : {0.0, 1e-14, 1e-300}) {
+    EXPECT_TRUE((Axis{Scale::linear, 300.0, 300.0 + width}.ticks(5).empty())) << width;
+  }
   EXPECT_EQ((Axis{Scale::logarithmic, 1e-12, 1e0}.ticks(5).size()), 13u);
-  // in a tiny picture round numbers take their place, but for 0, which has none
-  EXPECT_EQ(labels({Scale::logarithmic, 2e-12, 1.0}, 2), (Labels{"0.5", "1"}));
+  // in a tiny picture there are two powers, as far as it reaches
+  EXPECT_EQ(labels({Scale::logarithmic, 2e-12, 1.0}, 2), (Labels{"10^{−11}", "10^{−5}"}));
+  // within one power round numbers take their place, but for 0, which has none
+  EXPECT_EQ(labels({Scale::logarithmic, 2e-1, 2.0}, 2), (Labels{"1", "2"}));
 }
 
 TEST(Axis, GoesAroundItsNumbers) {

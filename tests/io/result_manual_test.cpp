@@ -13,10 +13,13 @@
 #include <set>
 #include <sstream>
 
+#include "libdata/balancing/balancing.hpp"
 #include "libdata/fit/measured_fit.hpp"
 #include "libdata/measured/measured_identification.hpp"
 #include "libdata/measured/order_tracking.hpp"
 #include "libdata/measured/running_modes.hpp"
+#include "libdata/measured/trend.hpp"
+#include "libdata/measured/zones.hpp"
 #include "libdyn/linear/critical_over.hpp"
 #include "libdyn/linear/frequency_response.hpp"
 #include "libdyn/linear/lateral_report.hpp"
@@ -41,12 +44,12 @@
 #include "libfe/analyses/critical_map.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"
+#include "tests/support/manual.hpp"
 
 namespace whirl::result_manual_test {
 
 std::string manual() {
-  std::ifstream file(std::filesystem::path(WHIRL_SOURCE_DIR) / "docs/command-line.md");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return test::command_line_manual();
 }
 
 /// The part below a heading, up to the next one.
@@ -84,7 +87,8 @@ std::ptrdiff_t count_of(const std::string& list, char separator) {
 }
 
 TEST(ResultManual, SaysWhatColumnsSay) {
-  const std::string text = part("Result file");
+  const std::string text =
+      part("Result file") + part("Datasets of motions") + part("Datasets of studies");
   const std::map<std::string, Row> rows = rows_of(text);
   int stated = 0;
   for (const ResultSet& set : result_schema()) {
@@ -151,11 +155,11 @@ TEST(ResultManual, NamesTheKeysOfJsonAsTheyArePrinted) {
       json_keys_of<ModelFacts, StaticStudy, ModesAtPoints, ModesOver, ModesOverThreshold,
                    CriticalOver, UnbalanceOver, Campbell, ResonanceStudy, CriticalSpeeds,
                    UnbalanceStudy, FrequencyResponse, ResponsePair, LateralReport, RunSummary,
-                   Identification, IdentifiedPeak, MeasuredIdentification, OrderTracking,
-                   RunningModes, MeasuredFit, FittedParameter, ClassificationResult, ContactShares,
-                   ReductionFacts, RotatingOrbit, OrbitSearch, BranchResult, CurveResult,
-                   TorusResult, SweepEntry, BasinShares, StudyOutcome, UnsettledMotions,
-                   WorkPrecisionStudy, TimedRun>();
+                   Identification, IdentifiedPeak, MeasuredIdentification, OrderTracking, Trend,
+                   ZoneReport, RunningModes, MeasuredFit, FittedParameter, ClassificationResult,
+                   ContactShares, ReductionFacts, RotatingOrbit, OrbitSearch, BranchResult,
+                   CurveResult, TorusResult, SweepEntry, BasinShares, StudyOutcome,
+                   UnsettledMotions, WorkPrecisionStudy, TimedRun, Balancing>();
   for (const std::string& key : keys) EXPECT_TRUE(told.contains(key)) << key;
   EXPECT_GT(keys.size(), 150u);
 }

@@ -99,8 +99,8 @@ TEST(Videos, HaveASizeInPixels) {
 using VideoPlace = InResultFolder;
 
 TEST_F(VideoPlace, IsCheckedBeforeTheWork) {
-  EXPECT_TRUE(says(refusal([&] { require_video_place({.place = folder / "m.mp4"}); }),
-                   "expected a video .ogv or .gif, or pictures .png"));
+  EXPECT_TRUE(says(refusal([&] { require_video_place({.place = folder / "m.avi"}); }),
+                   "expected a video .mp4, .gif or .ogv, or pictures .png"));
   EXPECT_TRUE(says(problem_of([&] { require_video_place({.place = folder / "no" / "m.ogv"}); }),
                    "there is no directory"));
   require_video_place({.place = folder / "m.ogv"});

@@ -18,6 +18,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <sstream>
 
@@ -460,7 +461,7 @@ TEST_F(VtkSeries, ADiskByItsMassIsAThinBrokenSymbol) {
   EXPECT_EQ(hub.outer_radius, 0.15);
   EXPECT_EQ(hub.width, 0.06);
   EXPECT_EQ(symbols_told(scene),
-            "Thin and broken: symbols, as the model does not give the size of wheel");
+            "Thin, broken and not to scale, as the model does not give the size of wheel");
   const auto data = written(scene, at_rest(scene), {.facets = 48});
   EXPECT_EQ(cells(data, 1).size(), 48u + 2u);       // the hub, whole
   EXPECT_EQ(cells(data, 4).size(), 4u * 48u / 2u);  // the wheel, half of its sectors
@@ -479,6 +480,59 @@ TEST_F(VtkSeries, OnlyWhatIsNotGivenIsASymbol) {
   EXPECT_EQ(scene.disks[1].outer_radius, 0.15);
   EXPECT_LE(scene.disks[1].width, 0.01);
   EXPECT_EQ(scene.disks[0].outer_radius, 0.2);
+}
+
+// A bearing is a pyramid that ends on the ground, or on what carries it, which stands on the ground
+// one floor below: tips move with the shaft, feet with the pedestal, the ground stays.
+TEST_F(VtkSeries, BearingsAndSupportsStandBelowTheRotor) {
+  const Model model = parse_model(std::string(masses) + R"([[body]]
+name = "pedestal"
+mass = 20
+[[bearing]]
+name = "free end"
+node = 1
+stiffness = 1e7
+[[bearing]]
+name = "drive end"
+node = 5
+to = "pedestal"
+stiffness = 1e7
+[[link]]
+name = "foundation"
+from = { body = "pedestal" }
+to = "ground"
+stiffness = 1e8
+)",
+                                  "rotor.toml");
+  const VtkScene scene = vtk_scene(model, Assembler(model.structure));
+  ASSERT_EQ(scene.supports.size(), 3u);
+  const VtkSupport &free = scene.supports[0], &drive = scene.supports[1],
+                   &foundation = scene.supports[2];
+  constexpr double radius = 0.04, floor = 0.06, z = 1.0;  // 6 % of the length of 1 m
+  EXPECT_EQ(free.to, -1);
+  EXPECT_EQ(free.tip, radius);
+  EXPECT_NEAR(free.foot, radius + floor, 1e-12);
+  EXPECT_EQ(drive.from, 4);
+  EXPECT_EQ(drive.to, 5);
+  EXPECT_EQ(foundation.from, 5);
+  EXPECT_EQ(foundation.to, -1);
+  EXPECT_NEAR(foundation.z, z, 1e-12);
+  EXPECT_NEAR(foundation.tip, radius + floor, 1e-12);
+  EXPECT_NEAR(foundation.foot, radius + 2.0 * floor, 1e-12);
+
+  VtkFrame frame = at_rest(scene);
+  frame.motion.row(4) << 1e-3, 2e-3, 0.0, 0.0;  // the shaft's end
+  frame.motion.row(5) << 0.0, -5e-4, 0.0, 0.0;  // the pedestal
+  const auto data = written(scene, frame, {.deflection_scale = 1.0, .facets = 8});
+  EXPECT_EQ(cells(data, 5).size(), 3u * 4u);
+  EXPECT_EQ(cells(data, 6).size(), 3u);
+  std::map<double, int> heights;  // of the points, in mm
+  for (const vtkIdType i : points(data, 5)) {
+    ++heights[std::round(1e6 * point(data, i).y()) / 1e3];
+  }
+  const std::map<double, int> expected{
+      {-40.0, 1}, {-100.0, 4}, {-38.0, 1}, {-100.5, 5}, {-160.0, 4}};
+  EXPECT_EQ(heights, expected);
 }
 
 TEST_F(VtkSeries, CollectionListsTimesAndFiles) {

@@ -8,11 +8,13 @@ never another number.
     formats_test.py WHIRL SOURCE
 """
 
+import io
 import math
 import struct
 import subprocess
 import sys
 import tempfile
+import zipfile
 import zlib
 from pathlib import Path
 
@@ -237,6 +239,43 @@ def dataset_58(name, values, unit):
 def test_universal(folder):
     expect_right(folder, "a.uff", dataset_58("X", X, "NONE") + dataset_58("Y", Y, "NONE"), note="no unit of the displacements")
     expect_right(folder, "a.uff", dataset_58("X", X, "um") + dataset_58("Y", Y, "um"))
+
+
+def workbook(sheets):
+    """The bytes of an .xlsx file with sheets {name: rows}."""
+    def cell(value, column, row):
+        place = f"{chr(ord('A') + column)}{row}"
+        if isinstance(value, str):
+            return f'<c r="{place}" t="inlineStr"><is><t>{value}</t></is></c>'
+        return f'<c r="{place}"><v>{value!r}</v></c>'
+    kinds = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+    links = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("[Content_Types].xml", '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">'
+                         f'<Default Extension="xml" ContentType="{kinds}.sheet.main+xml"/></Types>')
+        archive.writestr("_rels/.rels", '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+                         f'<Relationship Id="r" Type="{links}/officeDocument" Target="xl/workbook.xml"/></Relationships>')
+        archive.writestr("xl/workbook.xml", f'<workbook xmlns:r="{links}"><sheets>' + "".join(
+            f'<sheet name="{name}" sheetId="{i}" r:id="r{i}"/>' for i, name in enumerate(sheets, 1)) + "</sheets></workbook>")
+        archive.writestr("xl/_rels/workbook.xml.rels", "<Relationships>" + "".join(
+            f'<Relationship Id="r{i}" Type="{links}/worksheet" Target="worksheets/sheet{i}.xml"/>'
+            for i in range(1, len(sheets) + 1)) + "</Relationships>")
+        for i, rows in enumerate(sheets.values(), 1):
+            archive.writestr(f"xl/worksheets/sheet{i}.xml", "<worksheet><sheetData>" + "".join(
+                f'<row r="{r}">' + "".join(cell(v, c, r) for c, v in enumerate(row)) + "</row>"
+                for r, row in enumerate(rows, 1)) + "</sheetData></worksheet>")
+    return packed.getvalue()
+
+
+def test_workbooks(folder):
+    rows = [["Rig 3, run 2"], [], ["Time [s]", "X [um]", "Y [um]"]] + [[j / RATE, X[j], Y[j]] for j in range(SAMPLES)]
+    notes = [["Who", "measured"], ["A", "B"]]
+    expect_right(folder, "a.xlsx", workbook({"Notes": notes, "Run": rows}))
+    expect_right(folder, "a.xlsx", workbook({"Run": rows + [["Max", max(X), max(Y)]]}))
+    expect_refused(folder, "a.xlsx", workbook({"Run 1": rows, "Run 2": rows}), '"Run 1", "Run 2"', "a.xlsx#Run 1")
+    expect_refused(folder, "a.xlsx", workbook({"Notes": notes}), "no sheet has two lines of numbers")
+    expect_refused(folder, "a.xlsx", b"PK\x03\x04 torn", "workbook")
 
 
 def test_endings(folder):

@@ -124,7 +124,7 @@ class Equal(unittest.TestCase):
         return {name for name in group if len(group[name].dims) == 1}
 
     def test_every_verb_of_a_model_is_tried(self):
-        tried = {verb for verb, *_ in ON_ALL} | {verb for verb, *_ in ON_SOME} | {"fit"}  # of a measured motion
+        tried = {verb for verb, *_ in ON_ALL} | {verb for verb, *_ in ON_SOME} | {"fit", "balance"}  # of measured motions
         self.assertEqual(tried, VERBS)
 
     def test_linear_verbs_on_all_bundled_models(self):
@@ -160,6 +160,17 @@ class Equal(unittest.TestCase):
             self.assertEqual(self.compare("fit", "two_disk_mac", {
                 "measured": "run.csv", "probes": "probes.toml", "free": "contact.ring.stiffness,contact.ring.friction=0:0.2",
                 "revolutions": 6}), "equal")
+
+    def test_balancing(self):
+        with open("balance.toml", "w", encoding="utf-8") as file:
+            file.write('angles = "with rotation"\n[rotor]\ngrade = "G2.5"\n')
+            for name, node in (("left", 4), ("right", 9)):
+                file.write(f'[[plane]]\nname = "{name}"\nnode = {node}\nradius = "120 mm"\nholes = {{ count = 12 }}\n'
+                           f'[[probe]]\nname = "{name}"\nnode = {node}\nangle = "45 deg"\nuncertainty = "1 um"\n')
+        for more in ({}, {"criterion": "min-max"}, {"coefficients": "runs"}):
+            with self.subTest(options=more):
+                self.assertEqual(self.compare("balance", "two_disk_mac", {"runs": "balance.toml", "speed": "1500rpm"} | more),
+                                 "refused" if "coefficients" in more else "equal")
 
     def test_files_written_by_python_are_those_of_the_command_line(self):
         found = model("jeffcott").unbalance("500:3500:500rpm")

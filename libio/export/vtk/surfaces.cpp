@@ -73,11 +73,29 @@ class Builder {
   }
   void right_cap(const Ring& ring) { add(ring); }
 
+  /// The four sides of a pyramid from a tip down to the corners of its foot, in their order.
+  void sides(const Vertex& tip, const std::vector<Vertex>& corners) {
+    const int first = add_vertices(corners), top = add_vertices({tip});
+    for (int i = 0; i < 4; ++i) add({top, first + i, first + (i + 1) % 4});
+  }
+  /// A polygon, its normal by the order of its corners.
+  void polygon(const std::vector<Vertex>& corners) {
+    const int first = add_vertices(corners);
+    std::vector<int> all;
+    for (int i = 0; i < static_cast<int>(corners.size()); ++i) all.push_back(first + i);
+    add(std::move(all));
+  }
+
  private:
   /// Whether a facet is of a sector that a symbol leaves out.
   bool is_open(int facet) const {
     const int sectors = std::min(24, facets_);
     return sectors * facet / facets_ % 2 == 1;
+  }
+  int add_vertices(const std::vector<Vertex>& vertices) {
+    const int first = static_cast<int>(surfaces_.vertices.size());
+    surfaces_.vertices.insert(surfaces_.vertices.end(), vertices.begin(), vertices.end());
+    return first;
   }
   void add(std::vector<int> vertices) {
     surfaces_.cells.push_back({std::move(vertices), part_, member_});
@@ -112,6 +130,32 @@ double size_of(const VtkScene& scene) {
     size = std::max(size, 2.0 * (s.rotor_radius + s.clearance));
   }
   return size > 0.0 ? size : 1.0;
+}
+
+/// A point of the scene, or of the ground, with an arm to a place along the shaft.
+Vertex vertex_at(const VtkScene& scene, int point, double x, double y, double z) {
+  const double from = point < 0 ? 0.0 : scene.z[static_cast<std::size_t>(point)];
+  return {point, point, 0.0, Vector3d(x, y, z - from)};
+}
+
+/// A square across y below the axis, its normal up.
+std::vector<Vertex> square_at(const VtkScene& scene, const VtkSupport& s, double half) {
+  std::vector<Vertex> corners;
+  for (const auto& [x, z] : {std::pair{half, half}, {half, -half}, {-half, -half}, {-half, half}}) {
+    corners.push_back(vertex_at(scene, s.to, x, -s.foot, s.z + z));
+  }
+  return corners;
+}
+
+void add_supports(Surfaces& surfaces, const VtkScene& scene) {
+  constexpr double plate = 1.6;  // of a foot, wider than what stands on it
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    const VtkSupport& s = scene.supports[k];
+    const double half = 0.5 * s.width;
+    Builder(surfaces, 4, support, k)
+        .sides(vertex_at(scene, s.from, 0.0, -s.tip, s.z), square_at(scene, s, half));
+    Builder(surfaces, 4, foot, k).polygon(square_at(scene, s, plate * half));
+  }
 }
 
 }  // namespace
@@ -169,6 +213,7 @@ Surfaces surfaces_of(const VtkScene& scene, const VtkOptions& options) {
     const auto gap = [&](const Vec2& along) { return reach_of(s.geometry, s.clearance, along); };
     builder.band(builder.ring(left, s.rotor_radius, gap), builder.ring(right, s.rotor_radius, gap));
   }
+  add_supports(surfaces, scene);
   return surfaces;
 }
 
@@ -213,7 +258,7 @@ std::string symbols_told(const VtkScene& scene) {
   if (names.empty()) return "";
   const std::size_t more = names.size() > most ? names.size() - most : 0;
   names.resize(names.size() - more);
-  return fmt::format("Thin and broken: symbols, as the model does not give {}{}",
+  return fmt::format("Thin, broken and not to scale, as the model does not give {}{}",
                      fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 

@@ -8,7 +8,7 @@
 namespace whirl::inline io::vtk {
 
 /// Kinds of cells, as "part" numbers them.
-enum Part { shaft, disk, stator, contact_force, disk_symbol };
+enum Part { shaft, disk, stator, contact_force, disk_symbol, support, foot };
 
 /// A point of a surface and what it moves with.
 struct Vertex {

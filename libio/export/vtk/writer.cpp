@@ -143,6 +143,7 @@ vtkNew<vtkPolyData> data_of(const Series& series, const VtkFrame& frame) {
   add_names(data, "disk names", scene.disks);
   add_names(data, "stator names", scene.stators);
   add_names(data, "contact names", scene.contacts);
+  add_names(data, "support names", scene.supports);
   return data;
 }
 

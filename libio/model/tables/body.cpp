@@ -27,6 +27,10 @@ void read_bodies(ModelReading& reading) {
     if (body.name == "ground")
       table.problem("name", "\"ground\" is what does not move; choose another name");
     table.read(body, [&](const auto& field, PlanarMass& to) { read_mass(table, field, to); });
+    body.rotor = reading.rotor_at(table, "rotor");
+    if (!body.rotor.empty() && !body.spins) {
+      table.problem("rotor", "only a body with spins = true turns with a rotor");
+    }
     if (body.spins && body.m.x != body.m.y) {
       table.problem("mass",
                     "a body that spins has the same mass along x and y, expected one value");

@@ -80,7 +80,9 @@ void read_contacts(ModelReading& reading) {
     const auto at = reading.station(table);
     if (at) contact.at = *at;
     if (const auto against = table.string("against")) {
-      if (const auto s = reading.named_station(*against, table, "against")) contact.against = *s;
+      if (const auto s = reading.named_station(*against, table, "against", true, at)) {
+        contact.against = *s;
+      }
       if (at && at->kind == Station::Kind::body && at->body == *against) {
         table.problem("against", "the body would touch itself");
       }
@@ -107,6 +109,9 @@ void read_contacts(ModelReading& reading) {
           {reading.model.contacts.size(), table.where(), table.path("radius")});
     }
     if (at) reading.model.structure.stations.push_back(*at);
+    if (contact.against.kind == Station::Kind::position) {
+      reading.model.structure.stations.push_back(contact.against);
+    }
     reading.model.contacts.push_back(contact);
   });
 }

@@ -28,12 +28,10 @@ void read_films(ModelReading& reading) {
       }
     }
     if (const auto against = table.string("against")) {
-      if (const auto s = reading.named_station(*against, table, "against")) {
+      if (const auto s = reading.named_station(*against, table, "against", true, at)) {
         film.against = *s;
         if (at && at->kind == Station::Kind::body && at->body == *against) {
           table.problem("against", "the body would be its own bearing");
-        } else if (spins(*s)) {
-          table.problem("against", "the bearing of an oil film does not spin, but this body does");
         }
       }
     }
@@ -49,6 +47,9 @@ void read_films(ModelReading& reading) {
            .where = film.where});
     }
     if (at) reading.model.structure.stations.push_back(*at);
+    if (film.against.kind == Station::Kind::position) {
+      reading.model.structure.stations.push_back(film.against);
+    }
     reading.model.films.push_back(film);
   });
 }

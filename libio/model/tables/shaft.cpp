@@ -13,11 +13,34 @@ namespace whirl::inline io {
 
 namespace {
 
+/// The shaft that segments are added to: the first one, or that of a rotor.
+struct ShaftToFill {
+  std::vector<Segment>& segments;
+  std::string rotor;  ///< empty: the first one
+  double start = 0.0;
+
+  double end() const {
+    double z = start;
+    for (const Segment& segment : segments) z += segment.length;
+    return z;
+  }
+};
+
+ShaftToFill shaft_to_fill(Structure& s, const std::string& rotor) {
+  const auto named = std::ranges::find(s.rotors, rotor, &Rotor::name);
+  if (named == s.rotors.end()) return {s.shaft, ""};
+  return {named->shaft, rotor, named->z};
+}
+
 /// Adds what is at the left end of a row: a disk, an unbalance, and which parts are there.
-void add_station(ModelReading& reading, const StationCells& cells, const Where& where) {
+void add_station(ModelReading& reading, const StationCells& cells, const ShaftToFill& shaft,
+                 const Where& where) {
   Structure& s = reading.model.structure;
-  const Station at{
-      .kind = Station::Kind::position, .z = s.length(), .where = where, .key = "station"};
+  const Station at{.kind = Station::Kind::position,
+                   .z = shaft.end(),
+                   .rotor = shaft.rotor,
+                   .where = where,
+                   .key = "station"};
   const std::string number =
       cells.station.empty() ? fmt::format("of line {}", where.line) : cells.station;
   if (cells.has_disk) {
@@ -55,15 +78,14 @@ Material material_of(const ModelReading& reading, const ShaftRow& row, const Seg
 /// Adds the segments and layers of a table.
 /// @param common  what holds for rows that do not say otherwise
 void add_rows(ModelReading& reading, TableReader& table, const Segment& common,
-              std::size_t number) {
-  Structure& s = reading.model.structure;
+              const ShaftToFill& shaft, std::size_t number) {
   std::vector<Problem> wrong;
   std::vector<ShaftRow> rows;
   const auto from = reading.text_of(table, "table", "shaft", number, shaft_columns_named_in);
   if (from) rows = parse_shaft_table(from->text, from->name, wrong, &reading.doubts);
   for (const ShaftRow& row : rows) {
     const Where where{from->name, row.line, 1};
-    if (row.layer == 1) add_station(reading, row.at_left, where);
+    if (row.layer == 1) add_station(reading, row.at_left, shaft, where);
     if (row.is_end) break;
     const Material material = material_of(reading, row, common, table.has("material"),
                                           {from->name, row.line, row.material_place}, wrong);
@@ -77,7 +99,7 @@ void add_rows(ModelReading& reading, TableReader& table, const Segment& common,
       if (row.elements > 0) segment.elements = row.elements;
       segment.damping = damping;
       segment.where = where;
-      s.shaft.push_back(segment);
+      shaft.segments.push_back(segment);
       continue;
     }
     Layer layer{.name = fmt::format("layer {} of row {}", row.layer, row.line),
@@ -89,15 +111,19 @@ void add_rows(ModelReading& reading, TableReader& table, const Segment& common,
                 .shear = common.shear,
                 .damping = damping,
                 .where = {from->name, row.line, row.inner_place}};
-    const double end = s.length();
-    layer.to = {.kind = Station::Kind::position, .z = end, .where = where, .key = "layer"};
+    const double end = shaft.end();
+    layer.to = {.kind = Station::Kind::position,
+                .z = end,
+                .rotor = shaft.rotor,
+                .where = where,
+                .key = "layer"};
     layer.from = layer.to;
-    if (!s.shaft.empty()) layer.from.z = end - s.shaft.back().length;
-    s.layers.push_back(layer);
+    if (!shaft.segments.empty()) layer.from.z = end - shaft.segments.back().length;
+    reading.model.structure.layers.push_back(layer);
   }
   tell_once(wrong, 0);
   // nothing is said of stations on a shaft that is not whole
-  if (!wrong.empty() || rows.empty()) s.shaft.push_back({});
+  if (!wrong.empty() || rows.empty()) shaft.segments.push_back({});
   reading.add_problems(wrong);
 }
 
@@ -106,6 +132,8 @@ void read_shaft(ModelReading& reading) {
     table.string("name");
     Segment segment;
     segment.where = table.where();
+    const ShaftToFill shaft =
+        shaft_to_fill(reading.model.structure, reading.rotor_at(table, "rotor"));
     const bool has_table = table.has("table");
     table.node("table");
     if (table.has("material")) {
@@ -128,12 +156,12 @@ void read_shaft(ModelReading& reading) {
       for (const char* key : {"length", "outer_diameter", "inner_diameter"}) {
         if (table.node(key)) table.problem(key, "stands in the table; leave it out");
       }
-      add_rows(reading, table, segment, number);
+      add_rows(reading, table, segment, shaft, number);
       return;
     }
     table.string("table");
     read_diameters(table, segment.left, segment.right, {"table"}, false);
-    reading.model.structure.shaft.push_back(segment);
+    shaft.segments.push_back(segment);
   });
 }
 

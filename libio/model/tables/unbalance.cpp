@@ -1,14 +1,37 @@
+#include <fmt/format.h>
+
+#include <numbers>
+
 #include "libio/model/model_reading.hpp"
 #include "libio/model/model_table.hpp"
 #include "libio/model/read_parts.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
+/// When an unbalance begins: a time, or revolutions.
+Beginning read_beginning(TableReader& table) {
+  const auto text = table.string("begins");
+  if (!text) return {};
+  const auto quantity = parse_quantity(*text);
+  const bool is_time = quantity && quantity->dimension == dimension_of("s");
+  const bool is_turn = quantity && quantity->dimension == dimension_of("rad");
+  if (!(is_time || is_turn) || !(quantity->value > 0.0)) {
+    table.problem("begins", fmt::format("found {}, expected a time or revolutions after the start "
+                                        "of the recording, such as \"0.5 s\" or \"20 rev\"",
+                                        in_quotes(*text)));
+    return {};
+  }
+  if (is_time) return {.time = quantity->value};
+  return {.revolutions = quantity->value / (2.0 * std::numbers::pi)};
+}
+
 void read_unbalances(ModelReading& reading) {
   reading.for_each("unbalance", [&](TableReader& table, std::size_t) {
-    table.string("name");
+    const auto name = table.string("name");
+    const Beginning begins = read_beginning(table);
     const auto at = reading.station(table);
     std::optional<double> mass;
     if (const Body* body = at ? reading.body_at(*at) : nullptr) {
@@ -16,8 +39,11 @@ void read_unbalances(ModelReading& reading) {
       if (!body->spins)
         table.problem("body", "this body does not spin and has no unbalance; give it spins = true");
     }
-    const auto u = read_unbalance(table, at.value_or(Station{}), mass);
-    if (at && u) reading.model.structure.unbalances.push_back(*u);
+    auto u = read_unbalance(table, at.value_or(Station{}), mass);
+    if (!at || !u) return;
+    u->begins = begins;
+    u->name = name.value_or("");
+    reading.model.structure.unbalances.push_back(*u);
   });
 }
 
@@ -29,7 +55,10 @@ ModelTable unbalance_table() {
           .read = read_unbalances,
           .example =
               "body = \"b\"\n"
-              "moment = 1\n"};
+              "moment = 1\n",
+          .notes = {{"begins",
+                     "time or revolutions after the start of the recording of a simulation, "
+                     "\"0.5 s\" or \"20 rev\"; left out: it is always there"}}};
 }
 
 }  // namespace whirl::inline io

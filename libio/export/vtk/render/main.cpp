@@ -3,6 +3,9 @@
 //
 //   whirl_render SERIES.pvd OUT.ogv|OUT.png WIDTH HEIGHT FRAMES_PER_SECOND TITLE
 
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vtkActor.h>
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
@@ -24,10 +27,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2);
@@ -47,13 +52,16 @@ std::vector<fs::path> frames_of(const fs::path& pvd) {
   return frames;
 }
 
-/// Colors of shaft, disks, stators, contact forces and symbols of disks, as "part" numbers them.
+/// Colors of shaft, disks, stators, contact forces, symbols of disks, bearings and what these stand
+/// on, as "part" numbers them.
 void color_parts(vtkColorTransferFunction* colors) {
   colors->AddRGBPoint(0.0, 0.62, 0.66, 0.72);
   colors->AddRGBPoint(1.0, 0.27, 0.45, 0.69);
   colors->AddRGBPoint(2.0, 0.80, 0.72, 0.55);
   colors->AddRGBPoint(3.0, 0.84, 0.15, 0.16);
   colors->AddRGBPoint(4.0, 0.45, 0.59, 0.77);
+  colors->AddRGBPoint(5.0, 0.35, 0.62, 0.36);
+  colors->AddRGBPoint(6.0, 0.66, 0.64, 0.60);
 }
 
 void look_at(vtkRenderer* renderer, const double bounds[6]) {
@@ -167,6 +175,12 @@ class Stage {
   vtkNew<vtkTextActor> title_;
 };
 
+/// A dot for every picture that is drawn, for who waits.
+void tell_one() {
+  std::fputc('.', stdout);
+  std::fflush(stdout);
+}
+
 void write_movie(Stage& stage, const std::vector<fs::path>& frames, const char* title,
                  const fs::path& out, int frames_per_second) {
   vtkNew<vtkOggTheoraWriter> movie;
@@ -180,14 +194,54 @@ void write_movie(Stage& stage, const std::vector<fs::path>& frames, const char* 
       movie->Start();
     }
     movie->Write();
+    tell_one();
   }
   movie->End();
 }
 
+/// One of several processes that draw the pictures of a series together.
+struct Share {
+  std::size_t number = 0, of = 1;
+  std::vector<pid_t> others{};  ///< that the first one waits for
+};
+
+/// Divides pictures among processes: VTK draws in one thread. Each has a window of its own, so this
+/// stands before the first one.
+Share share_of(std::size_t pictures) {
+  constexpr std::size_t most = 8, fewest = 12;  // processes; pictures that are worth one
+  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+  Share share{.of = std::max<std::size_t>(1, std::min({processors, most, pictures / fewest}))};
+  for (std::size_t k = 1; k < share.of; ++k) {
+    const pid_t child = fork();
+    if (child == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGTERM);
+      return {.number = k, .of = share.of};
+    }
+    if (child > 0) share.others.push_back(child);
+    if (child < 0) {  // no process more: those that there are draw what they would have drawn
+      for (const pid_t other : share.others) kill(other, SIGTERM);
+      return {};
+    }
+  }
+  return share;
+}
+
+/// Whether all of the others have drawn their pictures.
+bool are_done(const Share& share) {
+  bool all = true;
+  for (const pid_t other : share.others) {
+    int status = 0;
+    all =
+        waitpid(other, &status, 0) == other && WIFEXITED(status) && WEXITSTATUS(status) == 0 && all;
+  }
+  return all;
+}
+
 void write_pictures(Stage& stage, const std::vector<fs::path>& frames, const char* title,
-                    const fs::path& out) {
+                    const fs::path& out, const Share& share) {
   vtkNew<vtkPNGWriter> picture;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  picture->SetCompressionLevel(1);  // most of the time would go into smaller files
+  for (std::size_t i = share.number; i < frames.size(); i += share.of) {
     const auto image = stage.picture(frames[i], title);
     char number[16];
     std::snprintf(number, sizeof number, "_%04zu", i + 1);
@@ -195,6 +249,7 @@ void write_pictures(Stage& stage, const std::vector<fs::path>& frames, const cha
     picture->SetFileName(place.c_str());
     picture->SetInputConnection(image->GetOutputPort());
     picture->Write();
+    tell_one();
   }
 }
 
@@ -212,12 +267,14 @@ int main(int count, char** words) {
   const fs::path out = words[2];
   const auto frames = frames_of(words[1]);
   if (frames.empty()) return 2;
+  const bool is_movie = out.extension() == ".ogv";
+  const Share share = is_movie ? Share{} : share_of(frames.size());
   Stage stage(std::atoi(words[3]), std::atoi(words[4]));
   stage.aim(frames);
-  if (out.extension() == ".ogv") {
+  if (is_movie) {
     write_movie(stage, frames, words[6], out, std::atoi(words[5]));
   } else {
-    write_pictures(stage, frames, words[6], out);
+    write_pictures(stage, frames, words[6], out, share);
   }
-  return 0;
+  return are_done(share) ? 0 : 4;
 }
