@@ -26,6 +26,10 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
   for (const auto* list : {&model.structure.bearings, &model.structure.seals}) {
     for (const Connection& c : *list) all.push_back({assembler.point(c.from), c.name});
   }
+  for (const GearPair& g : model.structure.gears) {
+    for (const Station* wheel : {&g.driving, &g.driven})
+      all.push_back({assembler.point(*wheel), g.name});
+  }
   for (const Probe& p : model.structure.probes) all.push_back({assembler.point(p.at), p.name});
   return all;
 }

@@ -9,11 +9,13 @@
 
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libbase/system/interruption.hpp"
+#include "libfe/assembly/collector.hpp"
 #include "libfe/assembly/modal_damping.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/mesh/elements/body.hpp"
 #include "libfe/mesh/elements/connection.hpp"
 #include "libfe/mesh/elements/disk.hpp"
+#include "libfe/mesh/elements/gear.hpp"
 #include "libfe/mesh/rigid_ties.hpp"
 #include "libfe/mesh/shaft_elements.hpp"
 #include "libfe/parts/bow.hpp"
@@ -22,55 +24,6 @@
 namespace whirl::inline fe {
 
 namespace {
-
-/// Collects element matrices at given indices of the full vector; index -1 is the ground.
-class Collector {
- public:
-  /// @param ratios  of the speeds of the shafts to that of the first one
-  explicit Collector(std::vector<double> ratios = {1.0})
-      : ratios_(std::move(ratios)), G_(ratios_.size()), H_(ratios_.size()) {}
-
-  /// @param shaft  with which the element spins
-  template <int N>
-  void add(const ElementMatrices<N>& e, const std::vector<int>& index, std::size_t shaft = 0) {
-    add(e.M, index, M_);
-    add(e.C, index, C_);
-    add(e.G, index, G_[shaft]);
-    add(e.K, index, K_);
-    add(e.H, index, H_[shaft]);
-  }
-  Sparse M(int n) const { return matrix(M_, n); }
-  Sparse C(int n) const { return matrix(C_, n); }
-  Sparse K(int n) const { return matrix(K_, n); }
-  std::vector<SpinPart<Sparse>> spins(int n) const {
-    std::vector<SpinPart<Sparse>> parts;
-    for (std::size_t i = 0; i < ratios_.size(); ++i) {
-      parts.push_back({ratios_[i], matrix(G_[i], n), matrix(H_[i], n)});
-    }
-    return parts;
-  }
-
- private:
-  template <class Block>
-  static void add(const Block& block, const std::vector<int>& index, std::vector<Triplet>& to) {
-    for (std::size_t j = 0; j < index.size(); ++j) {
-      for (std::size_t i = 0; i < index.size(); ++i) {
-        const double value = block(static_cast<int>(i), static_cast<int>(j));
-        if (index[i] >= 0 && index[j] >= 0 && value != 0.0) {
-          to.emplace_back(index[i], index[j], value);
-        }
-      }
-    }
-  }
-  static Sparse matrix(const std::vector<Triplet>& triplets, int n) {
-    Sparse A(n, n);
-    A.setFromTriplets(triplets.begin(), triplets.end());
-    return A;
-  }
-  std::vector<double> ratios_;
-  std::vector<Triplet> M_, C_, K_;
-  std::vector<std::vector<Triplet>> G_, H_;  // of each shaft
-};
 
 std::vector<int> indices(const DofMap& dofs, const Point& point) {
   std::vector<int> index(4);
@@ -211,12 +164,34 @@ void check_probes(const Structure& structure) {
 bool differ_in_loads_alone(const Structure& a, const Structure& b) {
   // names all members: one more does not compile until it is compared here, or said to be a load
   const auto& [shaft, disks, bodies, bearings, links, seals, linearized, unbalances, stations,
-               damping, gravity, layers, modal_damping, bow, forces, probes, rotors] = a;
+               damping, gravity, layers, modal_damping, bow, forces, probes, rotors, gears] = a;
   const auto same_station = [](const Station* x, const Station* y) { return *x == *y; };
   return std::ranges::equal(all_stations(a), all_stations(b), same_station) && shaft == b.shaft &&
          layers == b.layers && rotors == b.rotors && disks == b.disks && bodies == b.bodies &&
-         bearings == b.bearings && links == b.links && seals == b.seals && damping == b.damping &&
-         modal_damping == b.modal_damping && linearized.empty() && b.linearized.empty();
+         bearings == b.bearings && links == b.links && seals == b.seals && gears == b.gears &&
+         damping == b.damping && modal_damping == b.modal_damping && linearized.empty() &&
+         b.linearized.empty();
+}
+
+/// Adds the teeth of gears.
+/// @throws ModelError  for gears whose speeds are not those that their radii say
+void add_gears(const Structure& structure, const Mesh& mesh, const DofMap& dofs, Collector& to) {
+  constexpr double rounding = 0.01;  // of radii that are told in few digits
+  for (const GearPair& gears : structure.gears) {
+    const Point driving = resolve(gears.driving, structure, mesh);
+    const Point driven = resolve(gears.driven, structure, mesh);
+    const double speed = spin_ratio(driving, structure, mesh);
+    const double other = spin_ratio(driven, structure, mesh);
+    const double by_radii = -speed * gears.driving_radius / gears.driven_radius;
+    if (speed == 0.0 || std::abs(other - by_radii) > rounding * std::abs(by_radii)) {
+      throw ModelError(gears.where, gears.name,
+                       fmt::format("the driving gear turns with {:g} times the speed of the first "
+                                   "shaft and the driven one with {:g} times; expected {:.6g} by "
+                                   "the radii",
+                                   speed, other, by_radii));
+    }
+    to.add(matrices(gears, speed > 0.0 ? 1.0 : -1.0), indices(dofs, driving, driven));
+  }
 }
 
 /// Adds shaft, disks and bodies; internal functions of the shaft get the next numbers.
@@ -267,6 +242,7 @@ Assembler::Assembler(Structure structure)
   for (const Structure::Shaft& shaft : structure_->shafts()) ratios.push_back(shaft.ratio);
   Collector collector(std::move(ratios));
   add_rotor(*structure_, made->mesh, dofs, collector);
+  add_gears(*structure_, made->mesh, dofs, collector);
   const int n = dofs.full_size;
   made->weighing = collector.M(n);
 

@@ -223,6 +223,10 @@ std::vector<const Station*> all_stations(const Structure& structure) {
       stations.push_back(&connection.to);
     }
   }
+  for (const GearPair& gears : structure.gears) {
+    stations.push_back(&gears.driving);
+    stations.push_back(&gears.driven);
+  }
   for (const Unbalance& unbalance : structure.unbalances) stations.push_back(&unbalance.at);
   for (const Force& force : structure.forces) {
     if (force.has_station()) stations.push_back(&force.at);

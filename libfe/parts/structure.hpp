@@ -12,6 +12,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/linalg.hpp"
 #include "libfe/parts/bearings.hpp"
+#include "libfe/parts/gear.hpp"
 #include "libfe/parts/material.hpp"
 #include "libfe/parts/probe.hpp"
 #include "libfe/parts/section.hpp"
@@ -303,6 +304,7 @@ struct Structure {
   std::vector<Force> forces{};
   std::vector<Probe> probes{};
   std::vector<Rotor> rotors{};  ///< further shafts
+  std::vector<GearPair> gears{};
 
   /// A shaft: segments from where it starts, and the ratio of its speed to that of the first one.
   struct Shaft {

@@ -38,6 +38,10 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
   for (const Connection& s : model.structure.seals) all.push_back({place(s.from), "≋", s.name});
   for (const Contact& c : model.contacts) all.push_back({place(c.at), "◯", c.name});
   for (const OilFilm& f : model.films) all.push_back({place(f.at), "▲", f.name});
+  for (const GearPair& g : model.structure.gears) {
+    for (const Station* wheel : {&g.driving, &g.driven})
+      all.push_back({place(*wheel), "✱", g.name});
+  }
   for (const Disk& d : model.structure.disks) all.push_back({place(d.at), "┃", d.name});
   std::erase_if(all, [](const Mark& m) { return m.z < 0.0; });
   std::stable_sort(all.begin(), all.end(), [](const Mark& a, const Mark& b) { return a.z < b.z; });
@@ -66,7 +70,7 @@ bool is_flat(const std::vector<double>& radii) {
 
 std::string legend(const Structure& s, bool has_disk, bool has_symbol) {
   return std::string("  ▲ bearing   ") + (s.seals.empty() ? "" : "≋ seal   ") + "◯ contact" +
-         (has_disk ? "   ▓ disk" : "") +
+         (s.gears.empty() ? "" : "   ✱ gear") + (has_disk ? "   ▓ disk" : "") +
          (has_symbol ? "\n  ╎ disk, size not given (not to scale)" : "");
 }
 

@@ -102,14 +102,16 @@ void check_movable(ModelReading& reading) {
       throw ModelError({}, "", "all that has a mass is held: nothing that can move has one");
     }
   } catch (const ModelError& error) {
-    // these speak of a bearing, seal or link by its name; here its path is known
+    // these speak of a bearing, seal, link or gear by its name; here its path is known
     for (Problem problem : error.problems()) {
+      const auto complete = [&](const char* kind, const auto& part) {
+        if (problem.where == part.where && problem.key == part.name)
+          problem.key = fmt::format("{}.{}", kind, part.name);
+      };
       for (const auto& [kind, list] : s.connections()) {
-        for (const Connection& c : list) {
-          if (problem.where == c.where && problem.key == c.name)
-            problem.key = fmt::format("{}.{}", kind, c.name);
-        }
+        for (const Connection& c : list) complete(kind, c);
       }
+      for (const GearPair& gears : s.gears) complete("gear", gears);
       if (problem.where.file.empty()) problem.where = reading.root.where;
       reading.problems.push_back(problem);
     }

@@ -21,6 +21,7 @@
   bearing_table(),   \
   seal_table(),      \
   link_table(),      \
+  gear_table(),      \
   oil_film_table(),  \
   contact_table(),   \
   damping_table(),   \

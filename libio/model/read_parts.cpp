@@ -26,6 +26,24 @@ std::optional<std::pair<double, double>> diameters(TableReader& table, std::stri
 
 }  // namespace
 
+std::optional<Station> station_at(ModelReading& reading, TableReader& table, std::string_view key,
+                                  bool may_be_ground) {
+  const ConfigNode* node = table.node(key);
+  if (!node) {
+    table.missing(key, fmt::format("a body's name, {}{{ at = position }} or {{ node = number }}",
+                                   may_be_ground ? "\"ground\", " : ""));
+    return std::nullopt;
+  }
+  if (node->kind == ConfigNode::Kind::table) {
+    TableReader place = reading.inner(table, key);
+    auto found = reading.station(place);
+    place.finish();
+    return found;
+  }
+  const auto name = table.string(key);
+  return name ? reading.named_station(*name, table, key, may_be_ground) : std::nullopt;
+}
+
 void read_diameters(TableReader& table, Section& left, Section& right,
                     const std::vector<std::string>& instead, bool needs_inner) {
   const auto outer = diameters(table, "outer_diameter", Range::positive);

@@ -3,11 +3,17 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libio/model/model_reading.hpp"
 
 namespace whirl::inline io {
+
+/// A station at a key of its own: the name of a body, or a table with at, node or body.
+/// @return  nothing: it is missing or wrong, which is reported
+std::optional<Station> station_at(ModelReading& reading, TableReader& table, std::string_view key,
+                                  bool may_be_ground);
 
 /// The keys outer_diameter and inner_diameter of a part of the shaft.
 /// @param instead  keys in whose presence they may be left out

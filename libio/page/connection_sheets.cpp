@@ -132,6 +132,31 @@ Sheet coefficients_sheet(const Alike& group) {
   return sheet;
 }
 
+Sheet gears_sheet(const ModelParts& parts) {
+  const auto degrees = [](double angle) { return shown_digits(angle, "deg"); };
+  return {
+      "Gears",
+      sheet_table(
+          parts.structure.gears,
+          {{"gears", [](const GearPair& g) { return g.name; }},
+           {"driving at z", [&](const GearPair& g) { return z_text(g.driving, parts); }},
+           {"driven at z", [&](const GearPair& g) { return z_text(g.driven, parts); }},
+           {shown_heading("pitch radii", "mm"),
+            [](const GearPair& g) {
+              return shown_digits(g.driving_radius, "mm") + ", " +
+                     shown_digits(g.driven_radius, "mm");
+            }},
+           {shown_heading("centers", "deg"), [&](const GearPair& g) { return degrees(g.centers); }},
+           {shown_heading("pressure angle", "deg"),
+            [&](const GearPair& g) { return degrees(g.pressure_angle); }},
+           {shown_heading("helix angle", "deg"),
+            [&](const GearPair& g) { return degrees(g.helix_angle); }},
+           {shown_heading("k", "MN/m"),
+            [](const GearPair& g) { return shown_digits(g.stiffness, "MN/m"); }},
+           {shown_heading("c", "kN.s/m"),
+            [](const GearPair& g) { return shown_digits(g.damping, "kN.s/m"); }}})};
+}
+
 Sheet films_sheet(const ModelParts& parts) {
   return {"Oil films",
           sheet_table(
@@ -164,6 +189,7 @@ std::vector<Sheet> connection_sheets(const ModelParts& parts) {
   for (const Alike& group : groups) {
     if (!group.members.front()->is_rigid) sheets.push_back(coefficients_sheet(group));
   }
+  if (!parts.structure.gears.empty()) sheets.push_back(gears_sheet(parts));
   if (!parts.model.films.empty()) sheets.push_back(films_sheet(parts));
   return sheets;
 }

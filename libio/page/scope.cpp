@@ -95,6 +95,11 @@ void add_model(const Model& model, Sentences& to) {
   if (!s.bearings.empty() || !s.seals.empty() || !s.links.empty()) {
     to.add("Bearings, seals and links: linear stiffness, damping and added mass, as tabulated.");
   }
+  if (!s.gears.empty()) {
+    to.add(
+        "Gears: mean mesh stiffness along the line of action; neither torsion, which lets wheels "
+        "give way, nor axial motion, nor excitation by the teeth.");
+  }
   for (const OilFilm& film : model.films) {
     to.add(fmt::format(
         "Oil films: law \"{}\", constant viscosity, aligned journals{}.",

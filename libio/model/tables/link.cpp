@@ -4,6 +4,7 @@
 
 #include "libio/model/model_reading.hpp"
 #include "libio/model/model_table.hpp"
+#include "libio/model/read_parts.hpp"
 #include "libio/model/read_supports.hpp"
 
 namespace whirl::inline io {
@@ -16,16 +17,7 @@ void read_links(ModelReading& reading) {
     c.where = table.where();
     c.name = table.string("name").value_or(fmt::format("link {}", i + 1));
     for (const auto& [key, end] : {std::pair("from", &c.from), std::pair("to", &c.to)}) {
-      const ConfigNode* node = table.node(key);
-      if (!node) {
-        table.missing(key, "a body's name, \"ground\", { at = position } or { node = number }");
-      } else if (node->kind == ConfigNode::Kind::table) {
-        TableReader inner = reading.inner(table, key);
-        if (const auto s = reading.station(inner)) *end = *s;
-        inner.finish();
-      } else if (const auto name = table.string(key)) {
-        if (const auto s = reading.named_station(*name, table, key)) *end = *s;
-      }
+      if (const auto station = station_at(reading, table, key, true)) *end = *station;
     }
     const bool has_values = read_coefficients(reading, table, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
