@@ -55,7 +55,7 @@ Stretch stretch_about(const TurnedMotion& motion, double at, double revolutions)
   s.begin = std::clamp(middle - 0.5 * s.width, first, std::max(first, last - s.width));
   const auto [from, count] = samples_between(motion.time, begin, end);
   // angles ascend with time
-  const auto place = [&](double angle) {
+  const auto place = [&, from = from, count = count](double angle) {
     Eigen::Index low = from, high = from + count;
     while (low < high) {
       const Eigen::Index middle_of = low + (high - low) / 2;

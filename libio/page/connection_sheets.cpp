@@ -79,17 +79,17 @@ struct Alike {
 
 std::vector<Alike> alike(const Structure& s) {
   std::vector<Alike> groups;
-  for (const auto& [kind, list] : s.connections()) {
-    for (const Connection& c : list) {
+  for (const Structure::Connections& of_kind : s.connections()) {
+    for (const Connection& c : of_kind.list) {
       const auto same = std::find_if(groups.begin(), groups.end(), [&](const Alike& group) {
         const Connection& first = *group.members.front();
-        return group.kind == kind && first.coefficients == c.coefficients &&
+        return group.kind == of_kind.kind && first.coefficients == c.coefficients &&
                first.is_rigid == c.is_rigid && first.is_clamped == c.is_clamped;
       });
       if (same != groups.end()) {
         same->members.push_back(&c);
       } else {
-        groups.push_back({kind, {&c}});
+        groups.push_back({of_kind.kind, {&c}});
       }
     }
   }
