@@ -27,14 +27,6 @@ Curve arrow(const std::string& name, Complex to, Paint paint, Dash dash, Marker 
   return c;
 }
 
-/// A text beyond the end of an arrow.
-Label label_at(Complex to, const std::string& text) {
-  const double angle = std::arg(to), c = std::cos(angle);
-  return {to.real(), to.imag(),
-          text,      c < -0.3 ? Anchor::end : c > 0.3 ? Anchor::start : Anchor::middle,
-          8.0 * c,   4.0 - 13.0 * std::sin(angle)};
-}
-
 /// A panel of vectors on the rotor: a circle with the direction of the mark to the right.
 Panel vector_panel(double reach, const std::string& unit) {
   Panel p;
@@ -88,7 +80,7 @@ Figure readings_figure(const Balancing& found, const std::vector<const ReadingBa
     p.curves.push_back(
         arrow(r->probe + ", before", factor * r->before, paint, Dash::dashed, marker));
     p.curves.push_back(arrow(r->probe + ", after", factor * r->after, paint, Dash::solid, marker));
-    p.labels.push_back(label_at(factor * r->before, r->probe));
+    p.labels.push_back(label_outwards(factor * r->before, r->probe));
     f.probes.push_back(r->probe);
     f.table.rows.push_back(
         {r->probe, fmt::format("{:.4g}", r->told_before), fmt::format("{:.0f}", r->phase_before),
@@ -134,9 +126,9 @@ Figure weights_figure(const Balancing& found) {
       sure.dash = Dash::dashed;
       p.curves.push_back(std::move(sure));
     }
-    p.labels.push_back(
-        label_at(per_kg * plane.placed,
-                 fmt::format("{:.4g} {} at {:.0f}°", per_kg * plane.mass, unit.name, plane.angle)));
+    p.labels.push_back(label_outwards(
+        per_kg * plane.placed,
+        fmt::format("{:.4g} {} at {:.0f}°", per_kg * plane.mass, unit.name, plane.angle)));
     f.panels.push_back(std::move(p));
     f.table.rows.push_back({plane.name, fmt::format("{:.4g}", per_kg * plane.mass),
                             fmt::format("{:.1f}", plane.angle)});

@@ -233,12 +233,7 @@ Curve add_speeds(const Curve& loop, const Axis& amplitude, Panel& p) {
         taken.push_back(at);
         marks.x.push_back(at.x);
         marks.y.push_back(at.y);
-        const double angle = std::atan2(at.y, at.x);
-        p.labels.push_back({at.x, at.y, tick.label,
-                            std::cos(angle) < -0.3  ? Anchor::end
-                            : std::cos(angle) > 0.3 ? Anchor::start
-                                                    : Anchor::middle,
-                            8.0 * std::cos(angle), 4.0 - 13.0 * std::sin(angle)});
+        p.labels.push_back(label_outwards({at.x, at.y}, tick.label));
       }
     }
   }
@@ -290,8 +285,7 @@ Figure polar_figure(const std::vector<double>& speed, const PolarCurve& shown) {
   f.panels.push_back(std::move(p));
   f.notes = {
       "Radius: amplitude peak to peak. Angle: where the high spot is at phase 0, as its lag behind "
-      "the "
-      "probe, against the rotation. " +
+      "the probe, against the rotation. " +
       shown_heading("Numbers along the loop are speeds", "rpm") + "."};
   return f;
 }

@@ -82,8 +82,13 @@ WhirlStyle whirl_style(Whirl whirl) {
   }
 }
 
+Label label_outwards(Complex at, const std::string& text) {
+  const double angle = std::arg(at), c = std::cos(angle);
+  const Anchor anchor = c < -0.3 ? Anchor::end : c > 0.3 ? Anchor::start : Anchor::middle;
+  return {at.real(), at.imag(), text, anchor, 8.0 * c, 4.0 - 13.0 * std::sin(angle)};
+}
+
 std::string show_decrements(Panel& panel) {
-  constexpr double most = 3.0;
   double low = 0.0, high = 0.0;
   std::string hidden;
   for (Curve& c : panel.curves) {
@@ -91,20 +96,21 @@ std::string show_decrements(Panel& panel) {
     std::ranges::copy_if(c.y, std::back_inserter(told), [](double y) { return std::isfinite(y); });
     if (told.empty()) continue;
     const auto [least, largest] = std::ranges::minmax(told);
-    if (least > most) {
+    if (least > most_decrement) {
       c.is_key = false;
       hidden += (hidden.empty() ? "" : ", ") + c.end_name;
       continue;
     }
     low = std::min(low, least);
-    high = std::max(high, std::min(largest, most));
+    high = std::max(high, std::min(largest, most_decrement));
   }
   if (low == high) return "";  // nothing is near the limit: all is shown
   const Axis range = axis_around({low, high}, Scale::linear);
   panel.y.first = range.first;
   panel.y.last = range.last;
-  return hidden.empty() ? ""
-                        : fmt::format("Log decrements above {:g} are not shown: {}.", most, hidden);
+  return hidden.empty()
+             ? ""
+             : fmt::format("Log decrements above {:g} are not shown: {}.", most_decrement, hidden);
 }
 
 std::string plain_number(double value) {

@@ -93,6 +93,12 @@ DisplayUnit unit_of(const Probes& probes, double largest) {
 }
 std::string probe_name(const ProbeLabel& probe);
 
+/// A text beside a point, on the side that looks away from the origin.
+Label label_outwards(Complex at, const std::string& text);
+
+/// The largest logarithmic decrement that is shown: branches that are heavily damped are for who
+/// zooms out.
+inline constexpr double most_decrement = 3.0;
 /// Shows logarithmic decrements as far as they tell stability: branches that are heavily damped
 /// everywhere are for who zooms out.
 /// @return  a note that names these; empty: there are none

@@ -48,8 +48,6 @@ struct LocusView {
   }
 };
 
-constexpr double most_decrement = 3.0;  ///< heavily damped branches are for who zooms out
-
 std::vector<Figure> modes_over_figures(const ResultView& result) {
   const LocusView v(result);
   Figure f{.height = 600.0};
