@@ -77,4 +77,11 @@ CVec eigenvalues(const Mat& A) {
   return found ? found->values : CVec::Constant(A.rows(), Complex(nan, nan));
 }
 
+std::optional<SchurForm> schur_form(const Mat& A) {
+  if (A.size() == 0 || !A.allFinite()) return std::nullopt;
+  const Eigen::RealSchur<Mat> form(A);
+  if (form.info() != Eigen::Success) return std::nullopt;
+  return SchurForm{form.matrixT(), form.matrixU()};
+}
+
 }  // namespace whirl::inline base

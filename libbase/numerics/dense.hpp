@@ -55,4 +55,11 @@ Vec least_squares(const Mat& A, const Vec& b);
 /// Eigenvalues of a square matrix; NaN if the iteration does not converge.
 CVec eigenvalues(const Mat& A);
 
+struct SchurForm {
+  Mat T;  ///< upper triangular but for blocks of two, whose eigenvalues are complex
+  Mat U;  ///< orthogonal
+};
+/// A = U T U^T; nothing if the iteration does not converge, or A is empty or not finite.
+std::optional<SchurForm> schur_form(const Mat& A);
+
 }  // namespace whirl::inline base
