@@ -12,8 +12,8 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/analyses/connection_forces.hpp"
 #include "libfe/analyses/modes.hpp"
+#include "libfe/assembly/states_apart.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
-#include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline dyn {
 
@@ -202,7 +202,7 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
   std::vector<LargestResponse> largest(from.size());
   DynamicStiffness stiffness(system);
   // what holds nothing moves without end under a steady force, whatever rounding leaves of K
-  const bool is_held = is_supported(symmetric_part(assembler.uncondensed(Omega, 0.0).stiffness()));
+  const bool is_held = is_held_at_rest(assembler.uncondensed(Omega, 0.0));
   for (Eigen::Index k = 0; k < count; ++k) {
     const double w = frequencies[static_cast<std::size_t>(k)];
     if (assembler.depends_on_whirl()) {

@@ -30,6 +30,10 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
     for (const Station* wheel : {&g.driving, &g.driven})
       all.push_back({assembler.point(*wheel), g.name});
   }
+  for (const Support& support : model.structure.supports) {
+    for (const Station* at : places_of(support))
+      all.push_back({assembler.point(*at), support.name});
+  }
   for (const Probe& p : model.structure.probes) all.push_back({assembler.point(p.at), p.name});
   return all;
 }

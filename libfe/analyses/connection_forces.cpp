@@ -1,6 +1,7 @@
 #include "libfe/analyses/connection_forces.hpp"
 
 #include "libbase/numerics/sparse_lu.hpp"
+#include "libfe/assembly/support_equations.hpp"
 #include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
@@ -17,6 +18,15 @@ std::vector<BearingCoefficients> coefficients_of_parts(const Assembler& assemble
   }
   for (const LinearizedConnection& c : s.linearized) all.push_back(c.at(Omega, omega));
   return all;
+}
+
+/// The entries of a matrix, from a row on.
+void add_rows(const Sparse& A, int row, std::vector<Triplet>& to) {
+  for (int j = 0; j < A.outerSize(); ++j) {
+    for (Sparse::InnerIterator it(A, j); it; ++it) {
+      to.emplace_back(row + static_cast<int>(it.row()), j, it.value());
+    }
+  }
 }
 
 /// Displacements of all points that go with a displacement of one coordinate of a rigid part, all
@@ -91,6 +101,16 @@ std::vector<CarryingPart> carrying_parts(const Assembler& assembler) {
   for (const LinearizedConnection& c : s.linearized) {
     parts.push_back({"oil film", c.name, assembler.point(c.from), assembler.point(c.to)});
   }
+  const auto forces = support_forces(s, assembler.mesh(), assembler.dofs());
+  for (std::size_t i = 0, place = 1; i < forces.size(); ++i, ++place) {
+    const Support* support = forces[i].support;
+    const bool is_next = i + 1 < forces.size() && forces[i + 1].support == support;
+    const bool is_first = i == 0 || forces[i - 1].support != support;
+    if (is_first) place = 1;
+    const std::string number = is_first && !is_next ? "" : " " + std::to_string(place);
+    parts.push_back({support->sensors > 0 ? "magnetic bearing" : "support", support->name + number,
+                     forces[i].from, forces[i].to});
+  }
   return parts;
 }
 
@@ -102,7 +122,7 @@ ConnectionForces::ConnectionForces(const Assembler& assembler, double Omega, dou
   std::vector<Triplet> K_of, C_of, M_of, shapes;
   std::optional<Assembler::FullEquations> equations;
   std::optional<RigidShapes> static_shapes;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
     const auto row = static_cast<int>(2 * i);
     for (const auto& [point, sign] :
          {std::pair(parts[i].from, 1.0), std::pair(parts[i].to, -1.0)}) {
@@ -132,6 +152,13 @@ ConnectionForces::ConnectionForces(const Assembler& assembler, double Omega, dou
         if (shape(p) != 0.0) shapes.emplace_back(row + k, static_cast<int>(p), shape(p));
       }
     }
+  }
+  auto row = static_cast<int>(2 * all.size());
+  for (const SupportForce& f : support_forces(assembler.structure(), assembler.mesh(), dofs)) {
+    add_rows(f.K, row, K_of);
+    add_rows(f.C, row, C_of);
+    add_rows(f.M, row, M_of);
+    row += 2;
   }
   const auto matrix = [&](const std::vector<Triplet>& triplets) {
     Sparse A(static_cast<Eigen::Index>(2 * parts.size()), dofs.full_size);

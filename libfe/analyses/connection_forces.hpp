@@ -11,9 +11,9 @@
 
 namespace whirl::inline fe {
 
-/// A bearing, seal, link or linearized oil film of a structure.
+/// A bearing, seal, link or linearized oil film of a structure, or a support where it stands.
 struct CarryingPart {
-  std::string_view kind;  ///< "bearing", "seal", "link", "oil film"
+  std::string_view kind;  ///< "bearing", "seal", "link", "oil film", "support", "magnetic bearing"
   std::string name;
   Point from, to;         ///< the force acts from the first on the second
   bool is_rigid = false;  ///< the force follows from the equations of motion
@@ -31,7 +31,7 @@ struct CarryingPart {
   }
 };
 
-/// The same parts in the order bearings, seals, links, oil films.
+/// The same parts in the order bearings, seals, links, oil films, supports.
 std::vector<CarryingPart> carrying_parts(const Assembler& assembler);
 
 /// How a force on a rigid part is made of the equations of motion of all points.

@@ -29,6 +29,11 @@ constexpr double rounding = 1e-13;     ///< of the largest nu: smaller ones have
 
 std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options) {
   const Sparse K = symmetric_part(system.stiffness());
+  if (!system.dofs.states.empty() && !is_supported(K)) {
+    throw NumericalError(
+        "undamped critical speeds need supports that are springs and masses: this one has a "
+        "controller, or damping between its states; campbell follows the damped modes");
+  }
   const HermitianModes modes = largest_hermitian(symmetric_inertia(system.M), system.G(),
                                                  1.0 / options.order, K, options.count);
   std::vector<Critical> criticals;

@@ -11,6 +11,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libfe/analyses/own_frequency_modes.hpp"
 #include "libfe/analyses/reduced_modes.hpp"
+#include "libfe/assembly/states_apart.hpp"
 #include "libfe/eigen/disc.hpp"
 #include "libfe/eigen/energy_bounds.hpp"
 #include "libfe/eigen/lowest_frequencies.hpp"
@@ -42,15 +43,17 @@ struct FreeBody {
 };
 
 FreeBody free_body(const System& system) {
-  const Sparse K = symmetric_part(system.stiffness());
+  const StatesApart parts(system.dofs);
+  const Sparse K = symmetric_part(stiffness_at_rest(system, parts));
   if (is_supported(K)) return {};
-  Sparse M = symmetric_inertia(
-      system.M);  // joints without mass get plenty, which makes first_flexible low: safe
+  Sparse M = symmetric_inertia(system.M);
+  if (parts.has_states()) M = parts.structure.transpose() * Sparse(M * parts.structure);
+  // joints without mass get plenty, which makes first_flexible low: safe
   const double plenty = M.diagonal().maxCoeff();
-  for (int i = 0; i < system.size(); ++i) {
-    if (system.M.coeff(i, i) <= 0.0) M.coeffRef(i, i) = plenty;
+  for (int i = 0; i < static_cast<int>(M.rows()); ++i) {
+    if (M.coeff(i, i) <= 0.0) M.coeffRef(i, i) = plenty;
   }
-  const RealModes real = lowest_real_modes(K, M, std::min(system.size(), 16));
+  const RealModes real = lowest_real_modes(K, M, std::min(static_cast<int>(M.rows()), 16));
   return {true, real.first_flexible()};
 }
 
@@ -60,6 +63,12 @@ double stiffness_ratio(const Sparse& K, const Sparse& M, const CVec& q) {
   const double strain = std::abs((q.adjoint() * (K * q))(0));
   const double inertia = (q.adjoint() * (M * q))(0).real();
   return inertia > 0.0 ? strain / inertia : std::numeric_limits<double>::infinity();
+}
+
+/// Whether nothing of a system goes with the spin.
+bool stands(const System& system) {
+  if (system.Omega == 0.0) return true;
+  return !system.circulates() && system.G().squaredNorm() == 0.0;
 }
 
 /// At rest, modes with equal eigenvalues are turned so that each moves in one plane.
@@ -106,14 +115,42 @@ double reach_of(Complex lambda, const CVec& all) {
   return std::abs(lambda) * std::clamp(apart_from_next * next / std::abs(lambda), fine, rough);
 }
 
+/// Finds eigenvalues of states that move nothing and that nothing moves, see StateCoordinate.
+class IdleStates {
+ public:
+  explicit IdleStates(const DofMap& dofs) : T_(dofs.T) {
+    for (const StateCoordinate& state : dofs.states) {
+      if (state.idle) idle_.push_back(state);
+    }
+  }
+  /// Whether a pair is one of them: its shape is in coordinates that have this eigenvalue.
+  bool contain(Complex lambda, const CVec& q) const {
+    constexpr double same = 1e-6;  // relative
+    if (idle_.empty()) return false;
+    const CVec full = T_ * q;
+    double share = 0.0;
+    for (const StateCoordinate& state : idle_) {
+      if (std::abs(lambda - *state.idle) <= same * std::abs(*state.idle))
+        share += std::norm(full(state.index));
+    }
+    return share >= (1.0 - same) * full.squaredNorm();
+  }
+
+ private:
+  const Sparse& T_;
+  std::vector<StateCoordinate> idle_;
+};
+
 Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, int count) {
-  if (system.Omega == 0.0) separate_planes(found, system.dofs);
+  if (stands(system)) separate_planes(found, system.dofs);
   const Sparse D = system.D(), K = system.stiffness();
   Refinement refinement(system.M, D, K);
+  const IdleStates idle(system.dofs);
   Modes modes;
   for (Eigen::Index i = 0; i < found.lambda.size(); ++i) {
     Complex lambda = found.lambda(i);
     CVec q = found.q.col(i);
+    if (idle.contain(lambda, q)) continue;
     const bool is_rigid =
         body.is_free &&
         stiffness_ratio(K, system.M, q) <= rigid_share * body.first_flexible * body.first_flexible;

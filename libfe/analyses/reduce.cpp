@@ -10,6 +10,7 @@
 #include "libfe/analyses/modes.hpp"
 #include "libfe/analyses/reduction_error.hpp"
 #include "libfe/analyses/static_shapes.hpp"
+#include "libfe/assembly/states_apart.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {
@@ -61,6 +62,70 @@ Mat damped_basis(const Modes& modes, const Mat& rigid, const Sparse& M, int size
   return basis;
 }
 
+/// The matrices of the structure, whose shapes are sought; coordinates of states stay as they are.
+struct ShapesOf {
+  StatesApart parts;
+  Sparse K, M;
+
+  explicit ShapesOf(const System& system)
+      : parts(system.dofs),
+        K(symmetric_part(parts.has_states() ? stiffness_at_rest(system, parts) : system.K)),
+        M(symmetric_inertia(without_states(system.M))) {}
+
+  int size() const { return static_cast<int>(K.rows()); }
+  Sparse without_states(const Sparse& A) const {
+    if (!parts.has_states()) return A;
+    return parts.structure.transpose() * Sparse(A * parts.structure);
+  }
+  Mat of_structure(const Mat& shapes) const {
+    return parts.has_states() ? Mat(parts.structure.transpose() * shapes) : shapes;
+  }
+  /// How the states push the structure, a column for each kind of push.
+  Mat loads_of_states(const System& system) const {
+    Mat loads(size(), 2 * parts.states.cols());
+    if (parts.has_states()) {
+      loads << Mat(parts.structure.transpose() * Sparse(system.K * parts.states)),
+          Mat(parts.structure.transpose() * Sparse(system.C * parts.states));
+    }
+    return loads;
+  }
+  /// Shapes of the structure, over all coordinates.
+  Mat in_all(const Mat& shapes) const {
+    return parts.has_states() ? Mat(parts.structure * shapes) : shapes;
+  }
+  /// And one of each state.
+  Mat with_states(const Mat& shapes) const {
+    Mat all(parts.structure.rows(), shapes.cols() + parts.states.cols());
+    all << in_all(shapes), Mat(parts.states);
+    return all;
+  }
+};
+
+/// Shapes in the span of a basis that are orthonormal with respect to M, and orthogonal with
+/// respect to K.
+Mat ritz_shapes(const Sparse& K_s, const Sparse& M_s, const Mat& basis) {
+  if (basis.cols() == 0) throw NumericalError("the reduction has no shape: nothing oscillates");
+  const Mat M = basis.transpose() * (M_s * basis);
+  const Mat K = basis.transpose() * (K_s * basis);
+  const auto ritz = symmetric_modes(0.5 * (K + K.transpose()), M);
+  if (!ritz) {
+    throw NumericalError("the basis of the reduction has no inertia in some direction");
+  }
+  Mat Phi = basis * ritz->vectors;
+  for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
+    Eigen::Index largest = 0;
+    Phi.col(j).cwiseAbs().maxCoeff(&largest);
+    if (Phi(largest, j) < 0.0) Phi.col(j) *= -1.0;
+  }
+  return Phi;
+}
+
+/// The system in the shapes that a basis of its structure makes, and its states.
+ReducedSystem projected(const System& system, const ShapesOf& shapes, const Mat& basis) {
+  if (!shapes.parts.has_states()) return project(system, basis);
+  return in_shapes(system, shapes.with_states(ritz_shapes(shapes.K, shapes.M, basis)));
+}
+
 ReducedSystem unreduced(const System& system) {
   return {system.mapped([](const Sparse& A) { return Mat(A); }),
           Mat::Identity(system.size(), system.size()), system.dofs};
@@ -77,20 +142,7 @@ ReducedSystem in_shapes(const System& system, const Mat& Phi) {
 }
 
 ReducedSystem project(const System& system, const Mat& basis) {
-  if (basis.cols() == 0) throw NumericalError("the reduction has no shape: nothing oscillates");
-  const Mat M = basis.transpose() * (symmetric_inertia(system.M) * basis);
-  const Mat K = basis.transpose() * (system.K * basis);
-  const auto ritz = symmetric_modes(0.5 * (K + K.transpose()), M);
-  if (!ritz) {
-    throw NumericalError("the basis of the reduction has no inertia in some direction");
-  }
-  Mat Phi = basis * ritz->vectors;
-  for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
-    Eigen::Index largest = 0;
-    Phi.col(j).cwiseAbs().maxCoeff(&largest);
-    if (Phi(largest, j) < 0.0) Phi.col(j) *= -1.0;
-  }
-  return in_shapes(system, Phi);
+  return in_shapes(system, ritz_shapes(system.K, symmetric_inertia(system.M), basis));
 }
 
 ReducedSystem reduce(const System& system, const Reduction& how, const std::vector<Vec>& ports,
@@ -111,23 +163,25 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
     return unreduced(system);
   }
 
-  const Sparse K = symmetric_part(system.K), M = symmetric_inertia(system.M);
+  const ShapesOf shapes(system);
+  const Sparse& K = shapes.K;
+  const Sparse& M = shapes.M;
   const int most = how.modes > 0 ? how.modes : std::min(n, largest_basis);
   double band = how.band > 0.0 ? how.band : 2.0 * std::abs(system.Omega);
 
   RealModes real;
   Modes damped;
-  Mat residual(n, 0);
+  Mat residual(shapes.size(), 0);
   if (method == ReductionMethod::damped) {
     damped = complex_modes(system, (most + 1) / 2);
-    if (!damped.rigid_body.empty()) real = lowest_real_modes(K, M, std::min(n, 16));
+    if (!damped.rigid_body.empty()) real = lowest_real_modes(K, M, std::min(shapes.size(), 16));
     if (band == 0.0 && !damped.oscillatory.empty()) {
       band = 3.0 * damped.oscillatory.front().frequency();
     }
   } else {
     for (int count = most + 1;; count *= 2) {  // beyond the rigid ones of a free system
       real = lowest_real_modes(K, M, count);
-      if (real.first_flexible() > 0.0 || count >= n) break;
+      if (real.first_flexible() > 0.0 || count >= shapes.size()) break;
     }
     if (band == 0.0) band = 3.0 * real.first_flexible();
   }
@@ -137,15 +191,22 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
     Mat loads(n, std::ssize(rows));
     for (Eigen::Index i = 0; i < loads.cols(); ++i)
       loads.col(i) = rows[static_cast<std::size_t>(i)];
-    if (!rows.empty()) residual = static_shapes(K, M, loads, real);
+    loads = shapes.of_structure(loads);
+    if (shapes.parts.has_states()) {
+      const Mat pushes = shapes.loads_of_states(system);
+      loads.conservativeResize(Eigen::NoChange, loads.cols() + pushes.cols());
+      loads.rightCols(pushes.cols()) = pushes;
+    }
+    if (loads.cols() > 0) residual = static_shapes(K, M, loads, real);
   }
   const auto with = [&](int modes) {
     if (method == ReductionMethod::damped) {
-      return project(system, damped_basis(damped, real.Phi.leftCols(real.rigid), M, modes));
+      const Mat rigid = shapes.in_all(real.Phi.leftCols(real.rigid));
+      return project(system, damped_basis(damped, rigid, symmetric_inertia(system.M), modes));
     }
     Mat basis = real.Phi.leftCols(std::min<Eigen::Index>(modes, real.Phi.cols()));
     append_orthonormal(basis, residual, M);
-    return project(system, basis);
+    return projected(system, shapes, basis);
   };
 
   ReducedSystem reduced;
@@ -165,13 +226,15 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
 
 ReducedSystem with_static_shapes(const System& system, const ReducedSystem& reduced,
                                  const Mat& loads) {
-  const Sparse K = symmetric_part(system.K), M = symmetric_inertia(system.M);
+  const ShapesOf shapes(system);
   constexpr int few = 16;  // modes, more than can be rigid
-  const RealModes modes = lowest_real_modes(K, M, std::min(system.size(), few));
-  Mat basis(system.size(), 0);
-  append_orthonormal(basis, reduced.Phi, M);
-  append_orthonormal(basis, static_shapes(K, M, loads, modes), M);
-  return basis.cols() == reduced.Phi.cols() ? reduced : project(system, basis);
+  const RealModes modes = lowest_real_modes(shapes.K, shapes.M, std::min(shapes.size(), few));
+  Mat basis(shapes.size(), 0);
+  append_orthonormal(basis, shapes.of_structure(reduced.Phi), shapes.M);
+  const Eigen::Index before = basis.cols();
+  append_orthonormal(basis, static_shapes(shapes.K, shapes.M, shapes.of_structure(loads), modes),
+                     shapes.M);
+  return basis.cols() == before ? reduced : projected(system, shapes, basis);
 }
 
 }  // namespace whirl::inline fe

@@ -6,12 +6,12 @@
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/analyses/connection_forces.hpp"
 #include "libfe/assembly/excitations.hpp"
-#include "libfe/eigen/symmetric.hpp"
+#include "libfe/assembly/states_apart.hpp"
 
 namespace whirl::inline fe {
 
 void require_supports(const Assembler& assembler, double Omega, std::string_view what) {
-  if (is_supported(symmetric_part(assembler.uncondensed(Omega, 0.0).stiffness()))) return;
+  if (is_held_at_rest(assembler.uncondensed(Omega, 0.0))) return;
   throw ModelError({}, "",
                    fmt::format("{} supports, but the rotor or a body is free to move: "
                                "add a [[bearing]] or a [[link]] that holds it",

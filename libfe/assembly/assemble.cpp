@@ -11,6 +11,7 @@
 #include "libbase/system/interruption.hpp"
 #include "libfe/assembly/collector.hpp"
 #include "libfe/assembly/modal_damping.hpp"
+#include "libfe/assembly/support_equations.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/mesh/elements/body.hpp"
 #include "libfe/mesh/elements/connection.hpp"
@@ -164,13 +165,14 @@ void check_probes(const Structure& structure) {
 bool differ_in_loads_alone(const Structure& a, const Structure& b) {
   // names all members: one more does not compile until it is compared here, or said to be a load
   const auto& [shaft, disks, bodies, bearings, links, seals, linearized, unbalances, stations,
-               damping, gravity, layers, modal_damping, bow, forces, probes, rotors, gears] = a;
+               damping, gravity, layers, modal_damping, bow, forces, probes, rotors, gears,
+               supports] = a;
   const auto same_station = [](const Station* x, const Station* y) { return *x == *y; };
   return std::ranges::equal(all_stations(a), all_stations(b), same_station) && shaft == b.shaft &&
          layers == b.layers && rotors == b.rotors && disks == b.disks && bodies == b.bodies &&
          bearings == b.bearings && links == b.links && seals == b.seals && gears == b.gears &&
-         damping == b.damping && modal_damping == b.modal_damping && linearized.empty() &&
-         b.linearized.empty();
+         supports == b.supports && damping == b.damping && modal_damping == b.modal_damping &&
+         linearized.empty() && b.linearized.empty();
 }
 
 /// Adds the teeth of gears.
@@ -243,6 +245,7 @@ Assembler::Assembler(Structure structure)
   Collector collector(std::move(ratios));
   add_rotor(*structure_, made->mesh, dofs, collector);
   add_gears(*structure_, made->mesh, dofs, collector);
+  add_states(*structure_, dofs);
   const int n = dofs.full_size;
   made->weighing = collector.M(n);
 
@@ -260,16 +263,19 @@ Assembler::Assembler(Structure structure)
   }
   made->fixed = {collector.M(n), collector.C(n), collector.K(n), collector.spins(n)};
   if (!structure_->linearized.empty()) made->tables_depend_on_speed = true;
+  const bool has_supports = !structure_->supports.empty();
   if (!structure_->modal_damping.ratios.empty()) {
     // modes at rest, where films carry nothing; with the added mass of tables
     Structure without_films = *structure_;
     without_films.linearized.clear();
     const auto whole =
         std::exchange(structure_, std::make_shared<const Structure>(std::move(without_films)));
+    if (has_supports) made->supports = static_support_equations(*structure_, made->mesh, dofs);
     const auto at_rest = [&] { return at(0.0); };
     made->modal = modal_damping_matrix(structure_->modal_damping, at_rest, full(0.0, 0.0).M);
     structure_ = whole;
   }
+  if (has_supports) made->supports = support_equations(*structure_, made->mesh, dofs);
 }
 
 std::optional<Assembler> Assembler::with_loads_of(const Structure& structure) const {
@@ -303,6 +309,11 @@ Assembler::FullEquations Assembler::full(double Omega, double omega) const {
   if (r.mass != 0.0) f.C += r.mass * f.M;
   if (r.stiffness != 0.0) f.C += r.stiffness * symmetric_part(f.K);
   if (assembled_->modal.nonZeros() > 0) f.C += assembled_->modal;
+  if (const FullEquations& supports = assembled_->supports; supports.size() > 0) {
+    f.M += supports.M;  // damping of the rotor is in proportion to nothing of them
+    f.C += supports.C;
+    f.K += supports.K;
+  }
   if (structure_->linearized.empty()) return f;
   Collector linearized;  // damping of the rotor is not in proportion to their stiffness
   for (const LinearizedConnection& c : structure_->linearized) {

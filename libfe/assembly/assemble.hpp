@@ -106,10 +106,11 @@ class Assembler {
   /// What loads do not change: structures that differ in loads alone share it.
   struct Assembled {
     Mesh mesh;
-    DofMap dofs;          // supports eliminated, nothing condensed
-    FullEquations fixed;  // all that does not depend on speed
-    Sparse modal;         // damping of modes at rest; empty: none
-    Sparse weighing;      // inertia that has weight, of the full vector
+    DofMap dofs;             // supports eliminated, nothing condensed
+    FullEquations fixed;     // all that does not depend on speed
+    FullEquations supports;  // what their states add; empty: none have any
+    Sparse modal;            // damping of modes at rest; empty: none
+    Sparse weighing;         // inertia that has weight, of the full vector
     bool tables_depend_on_speed = false;
     bool depends_on_whirl = false;
   };

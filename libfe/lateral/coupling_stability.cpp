@@ -10,8 +10,8 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/roots.hpp"
 #include "libfe/assembly/properties.hpp"
+#include "libfe/assembly/states_apart.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
-#include "libfe/eigen/symmetric.hpp"
 #include "libfe/lateral/inverse_couplings.hpp"
 #include "libfe/parts/structure.hpp"
 
@@ -60,9 +60,7 @@ class CoupledRotor {
   LeastDamped at(double Q) const { return least_of(Q == 0.0 ? modes_ : modes_of(coupled(Q)), Q); }
 
   /// Whether it has a place to come back to.
-  bool is_held() const {
-    return is_supported(symmetric_part(assembler_.uncondensed(Omega_, 0.0).stiffness()));
-  }
+  bool is_held() const { return is_held_at_rest(assembler_.uncondensed(Omega_, 0.0)); }
 
   /// 2 x 2 receptance (x, y) of the station [m/N] for motions e^(s t), s = w (i + tilt); NaN where
   /// it is infinite.

@@ -1,6 +1,7 @@
 #pragma once
 /// Degrees of freedom: which entry of a vector is which displacement of which point.
 
+#include <optional>
 #include <vector>
 
 #include "libbase/numerics/linalg.hpp"
@@ -11,16 +12,26 @@ namespace whirl::inline fe {
 /// Components of the displacement of a point, in this order.
 enum Component { X = 0, Y = 1, THETA_X = 2, THETA_Y = 3 };
 
+/// A coordinate that stands for two states of a support, see state_coordinates.hpp.
+struct StateCoordinate {
+  int index = 0;  ///< in the full vector
+  /// Eigenvalue of the second state where it is none of the support's: nothing moves this state and
+  /// it moves nothing [rad/s].
+  std::optional<double> idle{};
+};
+
 /// Relation between the displacements of all points and the coordinates that are solved for.
 ///
 /// The full vector holds (x, y, theta_x, theta_y) of every node, then of every body (x, y, and the
-/// tilts if it has them), then the amplitudes of internal shape functions. The coordinates q are
-/// what is left after supports are eliminated and massless dofs condensed: full = T q.
+/// tilts if it has them), then the amplitudes of internal shape functions and the states of
+/// supports. The coordinates q are what is left after supports are eliminated and massless dofs
+/// condensed: full = T q.
 struct DofMap {
   int nodes = 0;
   std::vector<int> body_start;   ///< index of x of each body in the full vector
   std::vector<bool> body_tilts;  ///< whether that body has tilts
   int full_size = 0;
+  std::vector<StateCoordinate> states{};
   Sparse T;           ///< full_size x size()
   int condensed = 0;  ///< dofs without inertia that T expresses by others
 

@@ -227,6 +227,14 @@ std::vector<const Station*> all_stations(const Structure& structure) {
     stations.push_back(&gears.driving);
     stations.push_back(&gears.driven);
   }
+  for (const Support& support : structure.supports) {
+    for (const auto* coordinates : {&support.sees, &support.acts_on}) {
+      for (const InterfaceCoordinate& c : *coordinates) {
+        stations.push_back(&c.at);
+        stations.push_back(&c.to);
+      }
+    }
+  }
   for (const Unbalance& unbalance : structure.unbalances) stations.push_back(&unbalance.at);
   for (const Force& force : structure.forces) {
     if (force.has_station()) stations.push_back(&force.at);

@@ -90,8 +90,8 @@ double shaft_ratio(const Point& point, const Structure& structure, const Mesh& m
 /// The same of what is at a point: of a body that does not spin it is 0.
 double spin_ratio(const Point& point, const Structure& structure, const Mesh& mesh);
 
-/// All stations of a structure, in the order disks, bearings, links, gears, unbalances, forces,
-/// probes, layers, others.
+/// All stations of a structure, in the order disks, bearings, links, gears, supports, unbalances,
+/// forces, probes, layers, others.
 std::vector<const Station*> all_stations(const Structure& structure);
 
 }  // namespace whirl::inline fe

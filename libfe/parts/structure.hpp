@@ -17,6 +17,7 @@
 #include "libfe/parts/probe.hpp"
 #include "libfe/parts/section.hpp"
 #include "libfe/parts/station.hpp"
+#include "libfe/parts/support.hpp"
 
 namespace whirl::inline fe {
 
@@ -305,6 +306,7 @@ struct Structure {
   std::vector<Probe> probes{};
   std::vector<Rotor> rotors{};  ///< further shafts
   std::vector<GearPair> gears{};
+  std::vector<Support> supports{};
 
   /// A shaft: segments from where it starts, and the ratio of its speed to that of the first one.
   struct Shaft {

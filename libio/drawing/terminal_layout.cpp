@@ -42,6 +42,9 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
     for (const Station* wheel : {&g.driving, &g.driven})
       all.push_back({place(*wheel), "✱", g.name});
   }
+  for (const Support& support : model.structure.supports) {
+    for (const Station* at : places_of(support)) all.push_back({place(*at), "△", support.name});
+  }
   for (const Disk& d : model.structure.disks) all.push_back({place(d.at), "┃", d.name});
   std::erase_if(all, [](const Mark& m) { return m.z < 0.0; });
   std::stable_sort(all.begin(), all.end(), [](const Mark& a, const Mark& b) { return a.z < b.z; });
@@ -68,9 +71,10 @@ bool is_flat(const std::vector<double>& radii) {
   return std::all_of(radii.begin(), radii.end(), [](double r) { return r == 0.0; });
 }
 
-std::string legend(const Structure& s, bool has_disk, bool has_symbol) {
+std::string legend(const Structure& s, bool has_support, bool has_disk, bool has_symbol) {
   return std::string("  ▲ bearing   ") + (s.seals.empty() ? "" : "≋ seal   ") + "◯ contact" +
-         (s.gears.empty() ? "" : "   ✱ gear") + (has_disk ? "   ▓ disk" : "") +
+         (s.gears.empty() ? "" : "   ✱ gear") + (has_support ? "   △ support" : "") +
+         (has_disk ? "   ▓ disk" : "") +
          (has_symbol ? "\n  ╎ disk, size not given (not to scale)" : "");
 }
 
@@ -183,8 +187,11 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
   const Columns places{s.extent(), columns};
   if (!(places.length > 0.0)) return "";
   const Outline radii = outline(model, assembler, places);
-  return rows_of(radii) + lines_of(marks(model, assembler), places) + "\n" +
-         legend(s, !is_flat(radii.disk), !is_flat(radii.symbol)) + "\n";
+  const std::vector<Mark> below = marks(model, assembler);
+  const bool has_support =
+      std::ranges::any_of(below, [](const Mark& m) { return m.sign == std::string_view("△"); });
+  return rows_of(radii) + lines_of(below, places) + "\n" +
+         legend(s, has_support, !is_flat(radii.disk), !is_flat(radii.symbol)) + "\n";
 }
 
 }  // namespace whirl::inline io

@@ -31,6 +31,7 @@
   support_forces_kind(), \
   unbalance_over_kind(), \
   frf_kind(),            \
+  sensitivity_kind(),    \
   lateral_response_kind(), \
   coupling_kind(),       \
   balancing_kind(),      \

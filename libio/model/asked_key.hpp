@@ -15,6 +15,7 @@ struct AskedKey {
     quantity,  ///< a number or a text with a unit
     pair,      ///< a list of two quantities
     list,      ///< a list of one or more quantities
+    rows,      ///< a matrix by its rows, or one row
     integer,
     boolean,
     text,

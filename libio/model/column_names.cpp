@@ -79,6 +79,12 @@ constexpr Words others[] = {
      "excitation excfreq excitationfreq excitationfrequency precessionfrequency "
      "vibrationfrequency frequenz wirbelfrequenz frequence frequencia frequenza frecuencia"}};
 
+/// Parts of complex numbers; of entries of matrices with their row and column behind them.
+constexpr Words complex_parts[] = {{"real", "re realpart"},
+                           {"imaginary", "im imag imaginarypart"},
+                           {"magnitude", "mag abs modulus amplitude"},
+                           {"angle", "phase arg"}};
+
 /// Names that say the unit of their numbers.
 struct WordWithUnit {
   std::string_view word, column, unit;
@@ -121,6 +127,19 @@ void add_coefficients(Names& names) {
   }
 }
 
+void add_parts(Names& names) {
+  for (const Words& part : complex_parts) {
+    for_each_word(part.words, [&](const std::string& word) {
+      if (part.column != "angle") names[word].push_back({std::string(part.column), ""});
+      for (const char row : {'1', '2', '3', '4'}) {
+        for (const char column : {'1', '2', '3', '4'}) {
+          names[word + row + column].push_back({std::string(part.column) + row + column, ""});
+        }
+      }
+    });
+  }
+}
+
 Names all_names() {
   Names names;
   for (const WordWithUnit& word : with_units) {
@@ -128,6 +147,7 @@ Names all_names() {
   }
   for (const Words& side : diameters) add_diameters(names, side);
   add_coefficients(names);
+  add_parts(names);
   for (const Words& other : others) {
     for_each_word(other.words, [&](const std::string& word) {
       names[word].push_back({std::string(other.column), ""});

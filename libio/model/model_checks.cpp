@@ -7,6 +7,7 @@
 
 #include "libcontact/contact.hpp"
 #include "libfe/assembly/assemble.hpp"
+#include "libfe/assembly/states_apart.hpp"
 
 namespace whirl::inline io {
 
@@ -98,7 +99,8 @@ void check_movable(ModelReading& reading) {
   const Structure& s = reading.model.structure;
   try {
     const System movable = Assembler{s}.uncondensed(0.0);
-    if (movable.M.norm() == 0.0) {
+    const Sparse& structure = StatesApart(movable.dofs).structure;
+    if (Sparse(movable.M * structure).norm() == 0.0) {
       throw ModelError({}, "", "all that has a mass is held: nothing that can move has one");
     }
   } catch (const ModelError& error) {
@@ -112,6 +114,7 @@ void check_movable(ModelReading& reading) {
         for (const Connection& c : list) complete(kind, c);
       }
       for (const GearPair& gears : s.gears) complete("gear", gears);
+      for (const Support& support : s.supports) complete("support", support);
       if (problem.where.file.empty()) problem.where = reading.root.where;
       reading.problems.push_back(problem);
     }

@@ -166,7 +166,9 @@ class SchemaWriter {
     const bool is_list = !key.entries.empty() && key.entries.front().name == "[]";
     bool has_reference = false;
     for (const AskedKey& a : key.asked) {
-      if (a.form == quantity || a.form == pair || a.form == list) has_reference = true;
+      if (a.form == quantity || a.form == pair || a.form == list || a.form == rows) {
+        has_reference = true;
+      }
       if (a.form == quantity) add(reference(a));
       if (a.form == pair) {
         add(Record()
@@ -175,9 +177,11 @@ class SchemaWriter {
                 .set("minItems", 2)
                 .set("maxItems", 2));
       }
-      if (a.form == list) {
-        add(Record().set("type", "array").set("items", reference(a)).set("minItems", 1));
-      }
+      const auto listed = [](const Record& items) {
+        return Record().set("type", "array").set("items", items).set("minItems", 1);
+      };
+      if (a.form == list || a.form == rows) add(listed(reference(a)));
+      if (a.form == rows) add(listed(listed(reference(a))));
       if (a.form == integer) {
         Record form;
         form.set("type", "integer");

@@ -22,6 +22,8 @@
   seal_table(),      \
   link_table(),      \
   gear_table(),      \
+  support_table(),   \
+  magnetic_bearing_table(), \
   oil_film_table(),  \
   contact_table(),   \
   damping_table(),   \

@@ -153,6 +153,36 @@ std::vector<double> TableReader::list(std::string_view key, std::string_view uni
   return numbers;
 }
 
+std::optional<Mat> TableReader::rows(std::string_view key) {
+  const ConfigNode* value = node(key);
+  note(key, {.form = AskedKey::Form::rows});
+  if (!value) return std::nullopt;
+  const auto is_list = [](const ConfigNode& v) {
+    return v.kind == ConfigNode::Kind::array && !v.items.empty();
+  };
+  const bool is_one_row = is_list(*value) && !is_list(value->items.front());
+  const auto count = is_list(*value) && !is_one_row ? value->items.size() : 1;
+  const std::size_t length = is_one_row        ? value->items.size()
+                             : is_list(*value) ? value->items.front().items.size()
+                                               : 0;
+  Mat matrix(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(length));
+  for (std::size_t i = 0; i < count; ++i) {
+    const ConfigNode& row = is_one_row || !is_list(*value) ? *value : value->items[i];
+    if (!is_list(row) || row.items.size() != length) {
+      problem(key, fmt::format("found {}, expected rows of numbers, all of one length: "
+                               "[[1, 2], [3, 4]]",
+                               row.as_written()));
+      return std::nullopt;
+    }
+    for (std::size_t j = 0; j < length; ++j) {
+      const auto number = quantity(row.items[j], path(key), "", Range::any);
+      if (!number) return std::nullopt;
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = *number;
+    }
+  }
+  return matrix;
+}
+
 std::optional<Mat2> TableReader::matrix(std::string_view key, std::string_view unit, Range range) {
   const auto entries = [&](const ConfigNode* of) {
     TableReader table(of, path(key), problems_, asked_);

@@ -121,7 +121,7 @@ bool read_coefficients(ModelReading& reading, TableReader& table, AnyBearing& to
   return has_any(table, keys_of_kind(to));
 }
 
-ModelTable support_table(std::string_view name, std::string_view meaning,
+ModelTable connection_table(std::string_view name, std::string_view meaning,
                          void (*read)(ModelReading& reading)) {
   return {.name = name,
           .meaning = meaning,

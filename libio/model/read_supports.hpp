@@ -10,7 +10,7 @@
 namespace whirl::inline io {
 
 /// The table of bearings or seals.
-ModelTable support_table(std::string_view name, std::string_view meaning,
+ModelTable connection_table(std::string_view name, std::string_view meaning,
                          void (*read)(ModelReading& reading));
 
 /// All bearings or seals.

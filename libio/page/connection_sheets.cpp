@@ -157,6 +157,25 @@ Sheet gears_sheet(const ModelParts& parts) {
             [](const GearPair& g) { return shown_digits(g.damping, "kN.s/m"); }}})};
 }
 
+Sheet supports_sheet(const ModelParts& parts) {
+  const auto places = [&](const Support& support) {
+    std::string text;
+    for (const Station* at : places_of(support))
+      text += (text.empty() ? "" : ", ") + z_text(*at, parts);
+    return text;
+  };
+  return {"Supports with a dynamic stiffness",
+          sheet_table(
+              parts.structure.supports,
+              {{"support", [](const Support& s) { return s.name; }},
+               {"at z", places},
+               {"coordinates", [](const Support& s) { return std::to_string(s.acts_on.size()); }},
+               {"states", [](const Support& s) { return std::to_string(s.law.states()); }},
+               {shown_heading("k at rest", "MN/m"), [](const Support& s) {
+                  return shown_digits(s.law.static_stiffness()(0, 0), "MN/m");
+                }}})};
+}
+
 Sheet films_sheet(const ModelParts& parts) {
   return {"Oil films",
           sheet_table(
@@ -190,6 +209,7 @@ std::vector<Sheet> connection_sheets(const ModelParts& parts) {
     if (!group.members.front()->is_rigid) sheets.push_back(coefficients_sheet(group));
   }
   if (!parts.structure.gears.empty()) sheets.push_back(gears_sheet(parts));
+  if (!parts.structure.supports.empty()) sheets.push_back(supports_sheet(parts));
   if (!parts.model.films.empty()) sheets.push_back(films_sheet(parts));
   return sheets;
 }

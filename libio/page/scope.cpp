@@ -100,6 +100,11 @@ void add_model(const Model& model, Sentences& to) {
         "Gears: mean mesh stiffness along the line of action; neither torsion, which lets wheels "
         "give way, nor axial motion, nor excitation by the teeth.");
   }
+  if (!s.supports.empty()) {
+    to.add(
+        "Supports: linear dynamic stiffness between the coordinates that are named; its states are "
+        "coordinates of the model.");
+  }
   for (const OilFilm& film : model.films) {
     to.add(fmt::format(
         "Oil films: law \"{}\", constant viscosity, aligned journals{}.",

@@ -34,8 +34,8 @@ struct Prefix {
 constexpr Prefix prefixes[] = {{'n', -9}, {'u', -6}, {'m', -3}, {'c', -2},
                                {'k', 3},  {'M', 6},  {'G', 9}};
 
-constexpr Dimension dim(int kg, int m, int s, int angle = 0, int K = 0) {
-  return {{2 * kg, 2 * m, 2 * s, 2 * K, 2 * angle}};
+constexpr Dimension dim(int kg, int m, int s, int angle = 0, int K = 0, int A = 0) {
+  return {{2 * kg, 2 * m, 2 * s, 2 * K, 2 * angle, 2 * A}};
 }
 
 constexpr double pi = std::numbers::pi;
@@ -77,6 +77,8 @@ constexpr Unit units[] = {
     {"cpm", pi / 30, 0, dim(0, 0, -1, 1), "k"},
     {"Hz", 2 * pi, 0, dim(0, 0, -1, 1), "mkM"},
     {"K", 1, 0, dim(0, 0, 0, 0, 1), ""},
+    {"A", 1, 0, dim(0, 0, 0, 0, 0, 1), "um"},
+    {"V", 1, 0, dim(1, 2, -3, 0, 0, -1), "um"},
 };
 
 std::optional<Unit> find_unit(std::string_view symbol) {
@@ -362,6 +364,11 @@ std::string_view quantity_name(const Dimension& dimension) {
       {dimension_of("kg/m"), "line density"},
       {dimension_of("kg.m"), "unbalance"},
       {dimension_of("kg.m^2"), "moment of inertia"},
+      {dimension_of("A"), "current"},
+      {dimension_of("A/m"), "current per displacement"},
+      {dimension_of("A.s/m"), "current per velocity"},
+      {dimension_of("A/m/s"), "current per displacement and time"},
+      {dimension_of("N/A"), "force per current"},
   };
   for (const Name& entry : names) {
     if (entry.dimension == dimension) return entry.name;

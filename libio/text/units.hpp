@@ -20,7 +20,7 @@ namespace whirl::inline io {
 
 /// Powers of the base units. Angle is one of them, so that 50 Hz and 50 rad/s are not mixed up.
 struct Dimension {
-  std::array<int, 5> twice{};  ///< twice the exponents of kg, m, s, K, rad: N/m^1.5 needs halves
+  std::array<int, 6> twice{};  ///< twice the exponents of kg, m, s, K, rad, A: N/m^1.5 needs halves
 
   bool operator==(const Dimension&) const = default;
 };

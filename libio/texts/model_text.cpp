@@ -1,6 +1,7 @@
 #include "libio/texts/model_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,24 @@ std::string rest_text(const ModelFacts& facts) {
   return text;
 }
 
+/// "2, of 4 and 6 states"
+std::string supports_text(const std::vector<Support>& supports) {
+  std::vector<int> states;
+  for (const Support& support : supports) states.push_back(support.law.states());
+  return fmt::format("{}, of {} states", supports.size(), fmt::join(states, " and "));
+}
+
+/// How a support was fitted, and what it does that no passive one does.
+std::string fit_text(const LawFit& fit) {
+  constexpr double rounding = 1e-9;  // of a stiffness
+  std::string text = fmt::format("{} poles, within {:.1g}", fit.poles, fit.error);
+  if (fit.mirrored > 0) text += fmt::format(", {} made stable", fit.mirrored);
+  return text + (fit.least_damping < -rounding
+                     ? fmt::format(", not passive at {}",
+                                   shown_value(fit.least_damping_at, "Hz", ".4g"))
+                     : ", passive");
+}
+
 }  // namespace
 
 std::string headline(std::string_view what, const Model& model) {
@@ -122,6 +141,11 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
   table.row({"disks, bearings, links",
              fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
   if (!s.seals.empty()) table.row({"seals", fmt::format("{}", s.seals.size())});
+  if (!s.gears.empty()) table.row({"gears", fmt::format("{}", s.gears.size())});
+  if (!s.supports.empty()) table.row({"supports", supports_text(s.supports)});
+  for (const Support& support : s.supports) {
+    if (support.fit) table.row({support.name, fit_text(*support.fit)});
+  }
   if (!s.layers.empty()) table.row({"layers", fmt::format("{}", s.layers.size())});
   if (!s.forces.empty()) table.row({"forces", fmt::format("{}", s.forces.size())});
   if (!s.bow.z.empty()) {

@@ -13,6 +13,7 @@
   critical_verb(),   \
   unbalance_verb(),  \
   frf_verb(),        \
+  sensitivity_verb(), \
   lateral_verb(),    \
   balance_verb(),    \
   simulate_verb(),   \

@@ -122,7 +122,7 @@ TEST(Architecture, ThePythonPackageNeedsNoProgram) {
 // What a program tells people goes through say(), which lets nothing through that steers a
 // terminal.
 TEST(Architecture, OneFunctionPrints) {
-  static const std::regex pattern(R"((fmt::print|f?puts|printf|fwrite)\(|std::c(out|err)\b)");
+  static const std::regex pattern(R"(\b(fmt::print|f?puts|printf|fwrite)\(|std::c(out|err)\b)");
   for (const char* folder : {"libio", "libverbs", "apps"}) {
     for (const auto& [file, what] : lines_in(folder, pattern)) {
       const bool may = file == "libio/text/terminal.cpp" ||

@@ -31,6 +31,8 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"orbit", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--period", "1"},
        {"layout", "multipliers"}},
       {{"frf", disks}, {"layout", "frf"}},
+      {{"sensitivity", WHIRL_SOURCE_DIR "/models/magnetic_bearing.toml"},
+       {"layout", "sensitivity"}},
       {{"lateral", disks, "--maximum-speed", "6000rpm"},
        {"layout", "lateral", "campbell", "log_decrement", "critical_map", "lateral_response",
         "coupling"}},

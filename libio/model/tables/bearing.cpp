@@ -11,7 +11,7 @@ void read_bearings(ModelReading& reading) {
 }  // namespace
 
 ModelTable bearing_table() {
-  return support_table("bearing", "linear bearings, from a station to the ground or to a body",
+  return connection_table("bearing", "linear bearings, from a station to the ground or to a body",
                        read_bearings);
 }
 

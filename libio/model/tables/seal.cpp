@@ -11,7 +11,7 @@ void read_seals(ModelReading& reading) {
 }  // namespace
 
 ModelTable seal_table() {
-  return support_table("seal", "seals with linear coefficients, likewise", read_seals);
+  return connection_table("seal", "seals with linear coefficients, likewise", read_seals);
 }
 
 }  // namespace whirl::inline io

@@ -1,0 +1,110 @@
+#include "libfe/analyses/craig_bampton.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/error.hpp"
+#include "libfe/eigen/positive_factor.hpp"
+#include "libfe/eigen/symmetric.hpp"
+
+namespace whirl::inline fe {
+
+namespace {
+
+/// Columns of the identity: q = interface * u + inner * q_i.
+struct Parting {
+  Sparse interface, inner;
+
+  Parting(int n, const std::vector<int>& ports)
+      : interface(n, std::ssize(ports)), inner(n, n - std::ssize(ports)) {
+    std::vector<char> is_port(static_cast<std::size_t>(n), 0);
+    for (std::size_t k = 0; k < ports.size(); ++k) {
+      is_port[static_cast<std::size_t>(ports[k])] = 1;
+      interface.insert(ports[k], static_cast<int>(k)) = 1.0;
+    }
+    int column = 0;
+    for (int i = 0; i < n; ++i) {
+      if (!is_port[static_cast<std::size_t>(i)]) inner.insert(i, column++) = 1.0;
+    }
+    interface.makeCompressed();
+    inner.makeCompressed();
+  }
+};
+
+Sparse block(const Sparse& left, const Sparse& A, const Sparse& right) {
+  return left.transpose() * Sparse(A * right);
+}
+
+}  // namespace
+
+StructureMatrices<Mat> craig_bampton(const StructureMatrices<Sparse>& structure,
+                                     const std::vector<int>& interface, int modes) {
+  const Parting parting(structure.size(), interface);
+  const Sparse& I = parting.inner;
+  const Sparse K_i = block(I, structure.K, I), M_i = block(I, structure.M, I);
+  const auto inner = static_cast<int>(K_i.rows());
+  Mat shapes(structure.size(), std::ssize(interface) + std::min(modes, inner));
+  shapes.leftCols(std::ssize(interface)) = Mat(parting.interface);
+  if (inner > 0) {
+    const auto factor = positive_factor(K_i);
+    if (!factor) {
+      throw NumericalError(
+          "the structure moves where its interface is held: it lacks supports, or parts of it hang "
+          "together by nothing");
+    }
+    const Mat coupling(block(I, structure.K, parting.interface));
+    shapes.leftCols(std::ssize(interface)) -= I * factor->solve(coupling);
+    const RealModes found = lowest_real_modes(K_i, M_i, std::min(modes, inner));
+    shapes.rightCols(found.Phi.cols()) = I * found.Phi;
+  }
+  const auto reduced = [&](const Sparse& A) -> Mat { return shapes.transpose() * (A * shapes); };
+  return {reduced(structure.M), structure.C.rows() > 0 ? reduced(structure.C) : Mat(),
+          reduced(structure.K)};
+}
+
+void set_law(Support& support, const StructureMatrices<Mat>& reduced) {
+  const auto p = std::ssize(support.acts_on), m = reduced.size() - p;
+  const Mat C_all =
+      reduced.C.rows() > 0 ? reduced.C : Mat(Mat::Zero(reduced.size(), reduced.size()));
+  // modes of unit mass, whatever the file says
+  const Mat root = reduced.M.bottomRightCorner(m, m).llt().matrixL();
+  const auto scaled = [&](const Mat& A) -> Mat {
+    return root.triangularView<Eigen::Lower>().solve(A);
+  };
+  const auto on_modes = [&](const Mat& A) -> Mat {
+    return scaled(scaled(A.bottomRightCorner(m, m)).transpose());
+  };
+  const Mat K = on_modes(reduced.K), C = on_modes(C_all);
+  const Mat P = scaled(reduced.M.bottomLeftCorner(m, p));
+  const Mat K_u = scaled(reduced.K.bottomLeftCorner(m, p));  // zero but for rounding
+  const Mat in = K * P - K_u, in_rate = C * P - scaled(C_all.bottomLeftCorner(m, p));
+
+  StateCoordinates c;
+  c.K_w = K;
+  c.C_w = C;
+  c.B_0 = in;
+  c.B_1 = in_rate;
+  c.C_0 = -in.transpose();
+  c.C_1 = -in_rate.transpose();
+  const Mat Pt = P.transpose();
+  c.D = reduced.K.topLeftCorner(p, p) - Pt * K_u + in.transpose() * P;
+  c.idle.resize(static_cast<std::size_t>(m));
+  StateSpace& law = support.law;
+  law.D_rate = C_all.topLeftCorner(p, p) - Pt * scaled(C_all.bottomLeftCorner(m, p)) +
+               in_rate.transpose() * P;
+  law.D_inertia = reduced.M.topLeftCorner(p, p) - Pt * P;
+
+  // states v and (v' - in_rate u) / rate
+  const double rate = std::sqrt(std::max(m > 0 ? K.diagonal().maxCoeff() : 1.0, 1e-300));
+  law.A.resize(2 * m, 2 * m);
+  law.B.resize(2 * m, p);
+  law.C.resize(p, 2 * m);
+  law.A << Mat::Zero(m, m), rate * Mat::Identity(m, m), -K / rate, -C;
+  law.B << in_rate, (in - C * in_rate) / rate;
+  law.C << c.C_0, rate * c.C_1;
+  law.D = c.D + c.C_1 * in_rate;
+  support.coordinates = c;
+}
+
+}  // namespace whirl::inline fe

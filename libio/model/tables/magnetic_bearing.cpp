@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <numbers>
+#include <utility>
+
+#include "libfe/parts/control.hpp"
+#include "libio/model/model_reading.hpp"
+#include "libio/model/model_table.hpp"
+#include "libio/model/read_laws.hpp"
+#include "libio/model/read_parts.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+constexpr long most_pade_order = 20;
+
+/// The actuator of an axis: a force ki i - ks x against the motion x.
+struct Actuator {
+  double current_stiffness = 0.0;   ///< ki [N/A]
+  double negative_stiffness = 0.0;  ///< ks [N/m]
+  double angle = 0.0;  ///< of the first axis from +x; the other one is at a right angle
+
+  static constexpr auto fields() {
+    using enum Range;
+    using A = Actuator;
+    return std::tuple{
+        required("current_stiffness", &A::current_stiffness, "N/A", positive,
+                 "force per control current, of an axis"),
+        optional("negative_stiffness", &A::negative_stiffness, "N/m", nonnegative,
+                 "force per displacement, away from the center, without control"),
+        optional("angle", &A::angle, "rad", any,
+                 "of the first axis, from +x to +y; the other one is at a right angle to it")};
+  }
+};
+
+std::vector<TransferFunction> read_filters(ModelReading& reading, TableReader& table) {
+  std::vector<TransferFunction> filters;
+  reading.for_each_item(table, "filters", "a list of { kind = ..., frequency = ... }",
+                        [&](TableReader& item) {
+                          ControlFilter filter;
+                          item.read(filter);
+                          if (filter.frequency > 0.0) filters.push_back(transfer_function(filter));
+                        });
+  return filters;
+}
+
+/// The law from displacements of the sensors to currents [A/m], of one axis or of both; nothing: it
+/// is wrong, which is reported.
+std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table) {
+  PidController pid;
+  table.read(pid);
+  LoopDynamics loop;
+  table.read(loop);
+  table.at_most("pade_order", loop.pade_order, most_pade_order);
+  const bool has_pid =
+      table.has("proportional") || table.has("integral") || table.has("derivative");
+  const auto law = read_law(table, TransferForm::dynamic_stiffness);
+  std::vector<TransferFunction> functions = read_filters(reading, table);
+  if (loop.pade_order <= most_pade_order) {
+    for (TransferFunction& f : transfer_functions(loop)) functions.push_back(std::move(f));
+  }
+  if (has_pid && has_law(table)) {
+    table.problem("proportional",
+                  "found a controller twice, expected one: proportional, integral "
+                  "and derivative action, or a law");
+    return std::nullopt;
+  }
+  if (!has_pid && !has_law(table)) {
+    table.missing("proportional",
+                  "a controller: proportional, integral and derivative action, or numerator and "
+                  "denominator, poles and residues, or A, B, C and D",
+                  {"derivative", "numerator", "poles", "A"});
+  }
+  if (!has_pid && !law) return std::nullopt;
+  try {
+    if (law && !table.has("numerator")) {
+      return in_series(*law, chain(functions).repeated(law->outputs()));
+    }
+    functions.insert(functions.begin(), has_pid ? transfer_function(pid) : *read_function(table));
+    return chain(functions);
+  } catch (const NumericalError& error) {
+    table.problem(has_pid ? "proportional" : table.has("A") ? "A" : "numerator", error.what());
+    return std::nullopt;
+  }
+}
+
+/// The force against the motion at the actuator: of the currents, and of the motion itself.
+StateSpace force_law(const StateSpace& control, const Actuator& actuator) {
+  const auto axes = static_cast<Eigen::Index>(control.outputs());
+  const double ki = actuator.current_stiffness;
+  StateSpace law;
+  law.A = control.A;
+  law.B = Mat::Zero(control.states(), 2 * axes);
+  law.B.leftCols(axes) = control.B;
+  law.C = ki * control.C;
+  law.D = Mat(axes, 2 * axes);
+  law.D << ki * control.D, -actuator.negative_stiffness * Mat::Identity(axes, axes);
+  if (control.D_rate.size() > 0) {
+    law.D_rate = Mat::Zero(axes, 2 * axes);
+    law.D_rate.leftCols(axes) = ki * control.D_rate;
+  }
+  return law;
+}
+
+void read_magnetic_bearings(ModelReading& reading) {
+  reading.for_each("magnetic_bearing", [&](TableReader& table, std::size_t i) {
+    Support support;
+    support.where = table.where();
+    support.name = table.string("name").value_or(fmt::format("magnetic bearing {}", i + 1));
+    const auto at = reading.station(table);
+    const Station to = other_side(reading, table, at);
+    std::optional<Station> sensor = at;
+    if (table.node("sensor")) sensor = station_at(reading, table, "sensor", false);
+    Actuator actuator;
+    table.read(actuator);
+    auto control = read_control(reading, table);
+    if (!control || !at || !sensor) return;
+    if (control->inputs() == 1) control = control->repeated(2);
+    if (control->inputs() != 2 || control->outputs() != 2) {
+      table.problem("A", fmt::format("the controller has {} displacements and {} currents, "
+                                     "expected 1 or 2 of both: the axes of the bearing",
+                                     control->inputs(), control->outputs()));
+      return;
+    }
+    const auto axes = [&](const Station& station) {
+      return std::vector{interface_along(station, to, actuator.angle),
+                         interface_along(station, to, actuator.angle + 0.5 * std::numbers::pi)};
+    };
+    support.acts_on = axes(*at);
+    support.sees = axes(*sensor);
+    support.sensors = 2;
+    support.sees.insert(support.sees.end(), support.acts_on.begin(), support.acts_on.end());
+    support.law = force_law(*control, actuator);
+    reading.model.structure.supports.push_back(std::move(support));
+  });
+}
+
+}  // namespace
+
+ModelTable magnetic_bearing_table() {
+  return {
+      .name = "magnetic_bearing",
+      .meaning = "active magnetic bearings with their controllers, linear",
+      .read = read_magnetic_bearings,
+      .example =
+          "body = \"b\"\n"
+          "current_stiffness = 200\n"
+          "negative_stiffness = 1e6\n"
+          "proportional = 1e4\n"
+          "derivative = 20\n",
+      .as_tables =
+          "sensor = {}\n"
+          "filters = [{}]\n",
+      .as_values = "sensor = \"\"\n",
+      .notes = {{"sensor", "name of a body, or a table with a station; left out: at the bearing"},
+                {"filters", "in the loop, one after the other"},
+                {"numerator",
+                 "of a controller [A/m]: coefficients of powers of s in rad/s, of the "
+                 "highest one first"},
+                {"denominator", "likewise"},
+                {"poles",
+                 "of a controller: rows [real part, imaginary part] in rad/s, one of every "
+                 "conjugate pair"},
+                {"residues", "a row [real part, imaginary part] for each pole"},
+                {"A", "of a controller: z' = A z + B u, with displacements u along the axes"},
+                {"B", "of the states, a column for each axis"},
+                {"C", "i = C z + D u, control currents that act against the motion"},
+                {"D", "left out: zero"}}};
+}
+
+}  // namespace whirl::inline io

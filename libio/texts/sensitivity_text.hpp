@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "libdyn/linear/sensitivity.hpp"
+
+namespace whirl::inline io {
+
+/// The largest sensitivity of every loop, in dB, with its zone.
+std::string text_of(const Sensitivity& found);
+
+}  // namespace whirl::inline io
