@@ -81,9 +81,9 @@ constexpr Words others[] = {
 
 /// Parts of complex numbers; of entries of matrices with their row and column behind them.
 constexpr Words complex_parts[] = {{"real", "re realpart"},
-                           {"imaginary", "im imag imaginarypart"},
-                           {"magnitude", "mag abs modulus amplitude"},
-                           {"angle", "phase arg"}};
+                                   {"imaginary", "im imag imaginarypart"},
+                                   {"magnitude", "mag abs modulus amplitude"},
+                                   {"angle", "phase arg"}};
 
 /// Names that say the unit of their numbers.
 struct WordWithUnit {

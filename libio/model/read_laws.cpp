@@ -83,6 +83,11 @@ std::optional<PolesAndResidues> poles_and_residues(TableReader& table, const Law
 std::optional<StateSpace> matrices(TableReader& table, const LawKeys& keys) {
   StateSpace law;
   const auto& [A, B, C, D] = std::tie(keys.A, keys.B, keys.C, keys.D);
+  const bool has_states = table.has("A") || table.has("B") || table.has("C");
+  if (!has_states && D) {
+    law = {Mat(0, 0), Mat(0, D->cols()), Mat(D->rows(), 0), *D, {}, {}};
+    return law;
+  }
   for (const char* key : {"A", "B", "C"}) {
     if (!table.has(key)) table.missing(key, "a matrix of the state space z' = A z + B u");
   }

@@ -122,7 +122,7 @@ bool read_coefficients(ModelReading& reading, TableReader& table, AnyBearing& to
 }
 
 ModelTable connection_table(std::string_view name, std::string_view meaning,
-                         void (*read)(ModelReading& reading)) {
+                            void (*read)(ModelReading& reading)) {
   return {.name = name,
           .meaning = meaning,
           .read = read,

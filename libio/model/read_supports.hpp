@@ -11,7 +11,7 @@ namespace whirl::inline io {
 
 /// The table of bearings or seals.
 ModelTable connection_table(std::string_view name, std::string_view meaning,
-                         void (*read)(ModelReading& reading));
+                            void (*read)(ModelReading& reading));
 
 /// All bearings or seals.
 void read_supports(ModelReading& reading, const char* array, std::vector<Connection>& to);

@@ -99,10 +99,10 @@ std::string fit_text(const LawFit& fit) {
   constexpr double rounding = 1e-9;  // of a stiffness
   std::string text = fmt::format("{} poles, within {:.1g}", fit.poles, fit.error);
   if (fit.mirrored > 0) text += fmt::format(", {} made stable", fit.mirrored);
-  return text + (fit.least_damping < -rounding
-                     ? fmt::format(", not passive at {}",
-                                   shown_value(fit.least_damping_at, "Hz", ".4g"))
-                     : ", passive");
+  return text +
+         (fit.least_damping < -rounding
+              ? fmt::format(", not passive at {}", shown_value(fit.least_damping_at, "Hz", ".4g"))
+              : ", passive");
 }
 
 }  // namespace

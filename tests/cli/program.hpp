@@ -188,8 +188,8 @@ class Program : public testing::Test {
 };
 
 /// Names of the verbs that take any model and nothing else: small ones do not move
-/// quasi-periodically, as torus needs, nor have they a shaft, as lateral does, or a control loop, as
-/// sensitivity; fit takes a record, balance a file of runs.
+/// quasi-periodically, as torus needs, nor have they a shaft, as lateral does, or a control loop,
+/// as sensitivity; fit takes a record, balance a file of runs.
 inline const std::vector<std::string> model_verbs = [] {
   std::vector<std::string> names;
   for (const Verb& verb : verbs()) {

@@ -134,6 +134,19 @@ TEST(SupportTable, ResponsesAreFitted) {
   }
 }
 
+TEST(SupportTable, ControllersTakeSensorsElsewhere) {
+  const Support support = support_of(
+      "sensors = [{ body = \"casing\", angle = 0 }, { body = \"disk\", angle = 0 }]\n"
+      "interface = [{ body = \"disk\", angle = \"90 deg\" }]\nD = [[2, 3]]\n");
+  EXPECT_EQ(support.sensors, 2);
+  ASSERT_EQ(support.sees.size(), 2u);
+  EXPECT_EQ(support.sees[0].at.body, "casing");
+  ASSERT_EQ(support.acts_on.size(), 1u);
+  EXPECT_EQ(support.acts_on[0].y, 1.0);
+  EXPECT_EQ(support.law.states(), 0);
+  EXPECT_EQ(support.law.D(0, 1), 3.0);
+}
+
 /// The only problem of the machine with these lines.
 Problem problem_of(const std::string& lines) {
   try {

@@ -12,7 +12,7 @@ void read_bearings(ModelReading& reading) {
 
 ModelTable bearing_table() {
   return connection_table("bearing", "linear bearings, from a station to the ground or to a body",
-                       read_bearings);
+                          read_bearings);
 }
 
 }  // namespace whirl::inline io
