@@ -1,11 +1,11 @@
-#include "libio/model/read_supports.hpp"
+#include "libio/model/read_connections.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
 void read_bearings(ModelReading& reading) {
-  read_supports(reading, "bearing", reading.model.structure.bearings);
+  read_connections(reading, "bearing", reading.model.structure.bearings);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "libio/model/model_reading.hpp"
 #include "libio/model/model_table.hpp"
 #include "libio/model/read_parts.hpp"
-#include "libio/model/read_supports.hpp"
+#include "libio/model/read_connections.hpp"
 
 namespace whirl::inline io {
 

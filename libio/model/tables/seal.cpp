@@ -1,11 +1,11 @@
-#include "libio/model/read_supports.hpp"
+#include "libio/model/read_connections.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
 void read_seals(ModelReading& reading) {
-  read_supports(reading, "seal", reading.model.structure.seals);
+  read_connections(reading, "seal", reading.model.structure.seals);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ ModelTable connection_table(std::string_view name, std::string_view meaning,
                             void (*read)(ModelReading& reading));
 
 /// All bearings or seals.
-void read_supports(ModelReading& reading, const char* array, std::vector<Connection>& to);
+void read_connections(ModelReading& reading, const char* array, std::vector<Connection>& to);
 
 /// The keys of a kind of coefficients.
 /// @return  whether any is there

@@ -1,4 +1,4 @@
-#include "libio/model/read_supports.hpp"
+#include "libio/model/read_connections.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -133,7 +133,7 @@ ModelTable connection_table(std::string_view name, std::string_view meaning,
           .notes = {{"kind", "how its coefficients are given; left out: told by the other keys"}}};
 }
 
-void read_supports(ModelReading& reading, const char* array, std::vector<Connection>& to) {
+void read_connections(ModelReading& reading, const char* array, std::vector<Connection>& to) {
   reading.for_each(array, [&](TableReader& table, std::size_t i) {
     Connection c;
     c.where = table.where();
