@@ -21,6 +21,7 @@
   bearing_table(),   \
   seal_table(),      \
   link_table(),      \
+  coupling_table(),  \
   gear_table(),      \
   support_table(),   \
   magnetic_bearing_table(), \
