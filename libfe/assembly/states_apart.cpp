@@ -28,6 +28,7 @@ Sparse selected(int rows, const std::vector<int>& columns) {
 }  // namespace
 
 StatesApart::StatesApart(const DofMap& dofs) {
+  if (dofs.states.empty()) return;
   std::vector<bool> is_state(static_cast<std::size_t>(dofs.full_size), false);
   for (const StateCoordinate& state : dofs.states) {
     is_state[static_cast<std::size_t>(state.index)] = true;

@@ -5,10 +5,11 @@
 
 namespace whirl::inline fe {
 
-/// The coordinates of a system, sorted: q = structure * q_s + states * w.
+/// The coordinates of a system, sorted: q = structure * q_s + states * w. Empty where no support
+/// has states.
 struct StatesApart {
   Sparse structure;  ///< n x n_s, a column of the identity each
-  Sparse states;     ///< n x k, likewise; without columns: no support has states
+  Sparse states;     ///< n x k, likewise
 
   explicit StatesApart(const DofMap& dofs);
   bool has_states() const { return states.cols() > 0; }

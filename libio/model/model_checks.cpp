@@ -99,8 +99,9 @@ void check_movable(ModelReading& reading) {
   const Structure& s = reading.model.structure;
   try {
     const System movable = Assembler{s}.uncondensed(0.0);
-    const Sparse& structure = StatesApart(movable.dofs).structure;
-    if (Sparse(movable.M * structure).norm() == 0.0) {
+    const StatesApart parts(movable.dofs);
+    const Sparse M = parts.has_states() ? Sparse(movable.M * parts.structure) : movable.M;
+    if (M.norm() == 0.0) {
       throw ModelError({}, "", "all that has a mass is held: nothing that can move has one");
     }
   } catch (const ModelError& error) {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "libfe/eigen/symmetric.hpp"
 #include "libio/model/matrix_market.hpp"
 
 namespace whirl::inline io {
@@ -65,6 +66,11 @@ bool fit_together(TableReader& table, const ReadMatrices& read, const std::vecto
     if (read.all[k].rows() == n || (k == 2 && read.all[k].rows() == 0)) continue;
     table.problem(matrix_keys[k], fmt::format("found {} rows, expected {} as in stiffness_matrix",
                                               read.all[k].rows(), n));
+    return false;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (is_symmetric(read.all[k])) continue;
+    table.problem(matrix_keys[k], "expected a symmetric matrix, as that of a casing is");
     return false;
   }
   std::vector<long> sorted = rows;

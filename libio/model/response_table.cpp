@@ -15,8 +15,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr int most_ports = 4;   ///< whose entries have names
-constexpr int most_order = 40;  ///< that is tried
+constexpr int most_ports = 4;  ///< whose entries have names
 
 std::string_view unit_of(TransferForm form) {
   switch (form) {
@@ -176,7 +175,7 @@ StateSpace fitted_law(const MeasuredStiffness& response, const FitOptions& how, 
     const CMat& K = response.K[static_cast<std::size_t>(k)];
     for (Eigen::Index e = 0; e < H.rows(); ++e) H(e, k) = K(e / ports, e % ports);
   }
-  const auto most = static_cast<int>(std::min<Eigen::Index>(most_order, (samples - 3) / 2));
+  const auto most = static_cast<int>(std::min<Eigen::Index>(most_fit_order, (samples - 3) / 2));
   const int first = how.order > 0 ? how.order : 0, last = how.order > 0 ? how.order : most;
   RationalFit best;
   best.error = std::numeric_limits<double>::infinity();

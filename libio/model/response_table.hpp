@@ -34,6 +34,8 @@ MeasuredStiffness parse_response_table(const std::string& text, const std::strin
 /// How many columns of such a table a line names.
 std::size_t response_columns_named_in(const std::string& line);
 
+inline constexpr int most_fit_order = 40;  ///< poles of a law that is fitted
+
 /// How a law is fitted.
 struct FitOptions {
   int order = 0;            ///< number of poles; 0: as many as the tolerance needs

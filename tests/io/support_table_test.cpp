@@ -82,6 +82,22 @@ TEST(SupportTable, CoordinatesHaveStationsAndDirections) {
   EXPECT_EQ(two.law.D(1, 0), 7.0);
 }
 
+void expect_near(Complex found, Complex expected) {
+  EXPECT_LT(std::abs(found - expected), 1e-12 * std::abs(expected)) << found << expected;
+}
+
+/// The only problem of the machine with these lines.
+Problem problem_of(const std::string& lines) {
+  try {
+    parse_model(machine + lines);
+  } catch (const ModelError& error) {
+    EXPECT_EQ(error.problems().size(), 1u) << error.what();
+    return error.problems().front();
+  }
+  ADD_FAILURE() << "it is read: " << lines;
+  return {};
+}
+
 /// A pedestal of two masses as matrices, the first row of which is where the bearing stands.
 std::string matrices(const std::string& mass) {
   const auto text = [](const std::string& entries) {
@@ -98,13 +114,36 @@ TEST(SupportTable, MatricesOfACasingAreReducedOnce) {
   const Model model = parse_model(machine + lines);
   const Support& support = model.structure.supports.at(0);
   const Complex expected = 1e6 - 1e12 / (4.0 * s * s + 500.0 * s + 5e6);
-  EXPECT_LT(std::abs(at_s(support) - expected), 1e-12 * std::abs(expected));
+  expect_near(at_s(support), expected);
+  const Support stiffer = support_of(lines + "stiffness = 100\ndamping = 7\n");
+  expect_near(at_s(stiffer), expected + 100.0 + 7.0 * s);
+  EXPECT_EQ(stiffer.coordinates->D(0, 0) - support.coordinates->D(0, 0), 100.0);
   // what is stored has the reduced matrices, and says the same to the last bit
   EXPECT_NE(model.source.find("interface of rows 1"), std::string::npos);
   const Model again = parse_model(model.source);
   EXPECT_EQ(again.structure.supports.at(0).law.A, support.law.A);
   EXPECT_EQ(again.structure.supports.at(0).law.D, support.law.D);
   EXPECT_EQ(again.source, model.source);
+}
+
+TEST(SupportTable, MatricesThatAreNoCasingAreRefused) {
+  const std::string interface = "interface = [{ body = \"disk\", angle = 0, row = 1 }]\n";
+  const auto told = [](const std::string& lines, const char* key, const char* words) {
+    const Problem problem = problem_of(lines);
+    EXPECT_EQ(problem.key, std::string("support.pedestal.") + key) << lines;
+    EXPECT_NE(problem.message.find(words), std::string::npos) << problem.message;
+  };
+  const auto replaced = [](std::string text, const std::string& what, const char* with) {
+    return text.replace(text.find(what), what.size(), with);
+  };
+  const std::string skew =
+      replaced(matrices("2 2 4\n"), "symmetric\n2 2 1\n2 2 500", "general\n2 2 1\n2 1 500");
+  told(interface + skew, "damping_matrix", "symmetric");
+  told("interface = [{ body = \"disk\", angle = 0, row = 3 }]\n" + matrices("2 2 4\n"), "interface",
+       "from 1 to 2");
+  const std::string loose = replaced(matrices("2 2 4\n"), "2 2 5e6", "2 2 0");
+  told(interface + loose, "stiffness_matrix", "moves where its interface is held");
+  told(interface + matrices("2 2 4\n") + "form = \"impedance\"\n", "form", "belongs to");
 }
 
 std::string response(const std::string& head, const auto& values) {
@@ -147,18 +186,6 @@ TEST(SupportTable, ControllersTakeSensorsElsewhere) {
   EXPECT_EQ(support.law.D(0, 1), 3.0);
 }
 
-/// The only problem of the machine with these lines.
-Problem problem_of(const std::string& lines) {
-  try {
-    parse_model(machine + lines);
-  } catch (const ModelError& error) {
-    EXPECT_EQ(error.problems().size(), 1u) << error.what();
-    return error.problems().front();
-  }
-  ADD_FAILURE() << "it is read: " << lines;
-  return {};
-}
-
 TEST(SupportTable, WrongLawsAreToldWithTheirPlace) {
   const auto told = [](const std::string& lines, const char* key, const char* words) {
     const Problem problem = problem_of("body = \"disk\"\n" + lines);
@@ -179,6 +206,7 @@ TEST(SupportTable, WrongLawsAreToldWithTheirPlace) {
        "3 displacements and 1 forces, expected 2");
   told("response = \"\"\"\nreal, imag\n1, 2\n\"\"\"\nnumerator = [1]\ndenominator = [1, 1]\n",
        "response", "found two laws");
+  told("form = \"receptance\"\nD = [[1]]\nangle = 0\n", "form", "belongs to numerator");
   told("order = 4\nnumerator = [1]\ndenominator = [1, 1]\n", "order", "belongs to a response");
   told("to = \"foundation\"\nnumerator = [1]\ndenominator = [1, 1]\n", "to", "casing");
 }

@@ -15,8 +15,6 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr long most_order = 40;  ///< of a fitted law
-
 /// Springs, dampers and masses beside the law, and what this is.
 struct SupportKeys {
   TransferForm form = TransferForm::dynamic_stiffness;
@@ -75,7 +73,7 @@ std::optional<StateSpace> law_of_response(ModelReading& reading, TableReader& ta
   FitOptions how;
   if (const auto order = table.integer("order", Range::positive)) {
     how.order = static_cast<int>(*order);
-    table.at_most("order", *order, most_order);
+    table.at_most("order", *order, most_fit_order);
   }
   how.tolerance = table.quantity("tolerance", "", Range::positive).value_or(how.tolerance);
   const auto from = reading.text_of(table, "response", "support", item, response_columns_named_in);
@@ -151,7 +149,14 @@ void check_one_law(TableReader& table) {
         "numerator",
         "a law: numerator and denominator, poles and residues, A, B, C and D, a response, "
         "or matrices",
-        {"poles", "A", "response", "stiffness_matrix"});
+        {"poles", "A", "D", "response", "stiffness_matrix"});
+  }
+  const bool takes_form = table.has("numerator") || table.has("poles") || table.has("response");
+  if (table.has("form") && laws == 1 && !takes_form) {
+    table.problem("form", "belongs to numerator and denominator, poles and residues or a response");
+  }
+  if (table.has("sensors") && has_matrices) {
+    table.problem("sensors", "belongs to a controller: a casing is moved where it stands");
   }
 }
 
@@ -176,6 +181,8 @@ void read_dynamic_supports(ModelReading& reading) {
     if (support.sees.empty() || support.acts_on.empty()) return;
     if (casing) {
       set_law(support, *casing);
+      add_beside(support.law, keys);
+      support.coordinates->D.diagonal().array() += keys.stiffness;
       reading.model.structure.supports.push_back(std::move(support));
       return;
     }
