@@ -32,6 +32,22 @@ struct Parting {
   }
 };
 
+/// With inertia where there is none, as lumped masses leave rotations: so little that the fastest
+/// coordinate is a million times slower.
+Sparse with_inertia_everywhere(const Sparse& M, const Sparse& K) {
+  constexpr double faster = 1e6;
+  const Vec mass = M.diagonal(), stiffness = K.diagonal();
+  double fastest = 0.0;  // [rad^2/s^2]
+  for (Eigen::Index i = 0; i < mass.size(); ++i) {
+    if (mass(i) > 0.0) fastest = std::max(fastest, stiffness(i) / mass(i));
+  }
+  Sparse all = M;
+  for (Eigen::Index i = 0; i < mass.size(); ++i) {
+    if (mass(i) == 0.0) all.coeffRef(i, i) = stiffness(i) / (faster * faster * fastest);
+  }
+  return all;
+}
+
 Sparse block(const Sparse& left, const Sparse& A, const Sparse& right) {
   return left.transpose() * Sparse(A * right);
 }
@@ -44,7 +60,9 @@ StructureMatrices<Mat> craig_bampton(const StructureMatrices<Sparse>& structure,
   const Sparse& I = parting.inner;
   const Sparse K_i = block(I, structure.K, I), M_i = block(I, structure.M, I);
   const auto inner = static_cast<int>(K_i.rows());
-  Mat shapes(structure.size(), std::ssize(interface) + std::min(modes, inner));
+  const auto oscillating = static_cast<int>((M_i.diagonal().array() > 0.0).count());
+  const int count = std::min(modes, oscillating);
+  Mat shapes(structure.size(), std::ssize(interface) + count);
   shapes.leftCols(std::ssize(interface)) = Mat(parting.interface);
   if (inner > 0) {
     const auto factor = positive_factor(K_i);
@@ -55,8 +73,10 @@ StructureMatrices<Mat> craig_bampton(const StructureMatrices<Sparse>& structure,
     }
     const Mat coupling(block(I, structure.K, parting.interface));
     shapes.leftCols(std::ssize(interface)) -= I * factor->solve(coupling);
-    const RealModes found = lowest_real_modes(K_i, M_i, std::min(modes, inner));
-    shapes.rightCols(found.Phi.cols()) = I * found.Phi;
+    if (count > 0) {
+      const RealModes found = lowest_real_modes(K_i, with_inertia_everywhere(M_i, K_i), count);
+      shapes.rightCols(count) = I * found.Phi;
+    }
   }
   const auto reduced = [&](const Sparse& A) -> Mat { return shapes.transpose() * (A * shapes); };
   return {reduced(structure.M), structure.C.rows() > 0 ? reduced(structure.C) : Mat(),

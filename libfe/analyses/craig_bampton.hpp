@@ -20,9 +20,10 @@ struct StructureMatrices {
 /// the interface held: constraint modes -K_ii^-1 K_ib and modes K_ii phi = omega^2 M_ii phi.
 ///
 /// @param interface  coordinates that something is attached to, from 0
-/// @param modes      how many; all, if there are not more
-/// @throws NumericalError  if the structure moves with its interface held, or has coordinates
-///                         without inertia, or the modes do not converge
+/// @param modes      how many; all, if there are not more. Coordinates without inertia, as the
+///                   rotations of lumped masses, make none
+/// @throws NumericalError  if the structure moves with its interface held, or the modes do not
+///                         converge
 /// @source [CraigBampton1968]
 StructureMatrices<Mat> craig_bampton(const StructureMatrices<Sparse>& structure,
                                      const std::vector<int>& interface, int modes);

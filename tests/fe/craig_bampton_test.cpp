@@ -95,6 +95,23 @@ TEST(CraigBampton, ConvergesWithItsModes) {
   }
 }
 
+// Coordinates without inertia follow the others, as if they were condensed.
+TEST(CraigBampton, TakesLumpedMasses) {
+  StructureMatrices<Sparse> lumped = chain_of(12);
+  Mat M = Mat::Zero(12, 12);
+  for (int k = 0; k < 12; k += 2) M(k, k) = 3.0 + k;
+  lumped.M = M.sparseView();
+  lumped.C.resize(0, 0);
+  const std::vector<int> at{10};
+  const StateSpace law = support_of(craig_bampton(lumped, at, 100), 1).law;
+  EXPECT_EQ(law.states(), 10);  // of the five inner masses
+  for (const Complex s : {20.0 * i, 300.0 * i, -1.0 + 700.0 * i}) {
+    const CMat Z = s * s * M.cast<Complex>() + Mat(lumped.K).cast<Complex>();
+    const Complex expected = 1.0 / Z.inverse()(10, 10);
+    EXPECT_LT(std::abs(law.stiffness_at(s)(0, 0) - expected), 1e-10 * std::abs(expected)) << s;
+  }
+}
+
 TEST(CraigBampton, NeedsAStructureThatIsHeld) {
   StructureMatrices<Sparse> loose = chain_of(4);
   Mat K(loose.K);
