@@ -9,6 +9,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/analyses/own_frequency_modes.hpp"
 #include "libfe/analyses/reduced_modes.hpp"
 #include "libfe/assembly/states_apart.hpp"
@@ -40,12 +41,18 @@ constexpr double same_frequency = 1e-9;  ///< relative distance of equal eigenva
 struct FreeBody {
   bool is_free = false;
   double first_flexible = 0.0;  ///< [rad/s]; 0: nothing deforms
+  double slowest = 0.0;         ///< below all that oscillates, of a stiffness that is singular by
+                                ///< states that nothing holds [rad/s]; 0: it is regular
 };
 
 FreeBody free_body(const System& system) {
   const StatesApart parts(system.dofs);
   const Sparse K = symmetric_part(stiffness_at_rest(system, parts));
-  if (is_supported(K)) return {};
+  if (is_supported(K)) {
+    if (!parts.has_states() || SparseLu(system.stiffness()).is_regular()) return {};
+    const Vec inertia = parts.structure.transpose() * system.M.diagonal();
+    return {.slowest = 0.1 * std::sqrt(K.diagonal().minCoeff() / inertia.maxCoeff())};
+  }
   Sparse M = symmetric_inertia(system.M);
   if (parts.has_states()) M = parts.structure.transpose() * Sparse(M * parts.structure);
   // joints without mass get plenty, which makes first_flexible low: safe
@@ -187,7 +194,7 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
 
 /// Free systems are shifted by a part of their first flexible frequency, if they have one.
 double shift_for(const FreeBody& body) {
-  if (!body.is_free) return 0.0;
+  if (!body.is_free) return -body.slowest;
   return body.first_flexible > 0.0 ? -0.3 * body.first_flexible : -1.0;
 }
 

@@ -143,6 +143,9 @@ InterfaceCoordinate interface_along(const Station& at, const Station& to, double
 Station other_side(ModelReading& reading, TableReader& table, const std::optional<Station>& at) {
   const auto name = table.string("to");
   const auto found = name ? reading.named_station(*name, table, "to", true, at) : std::nullopt;
+  if (found && at && at->kind == Station::Kind::body && at->body == found->body) {
+    table.problem("to", "the body would stand on itself");
+  }
   return found.value_or(Station{});
 }
 

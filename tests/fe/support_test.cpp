@@ -346,6 +346,18 @@ TEST(Supports, IntegratorBringsTheRotorBack) {
   EXPECT_LT(std::abs(at(found.oscillatory[0].lambda)), 1e-8 * ki * I);
 }
 
+TEST(Supports, IntegratorsThatNothingMovesAreARootAtZero) {
+  Structure s = jeffcott();
+  s.bearings = {test::bearing(test::body("disk"), test::isotropic(1e6))};
+  s.supports.push_back(
+      support(test::body("disk"), state_space(TransferFunction{{0.0}, {1.0, 0.0}})));
+  const Modes found = complex_modes(assemble(s, 0.0), 4);
+  ASSERT_EQ(found.oscillatory.size(), 2u);
+  EXPECT_NEAR(found.oscillatory[0].frequency(), std::sqrt(1e5), 1e-9);
+  ASSERT_EQ(found.overdamped.size(), 2u);
+  EXPECT_NEAR(std::abs(found.overdamped[0]), 0.0, 1e-9);
+}
+
 TEST(Supports, MayActElsewhereThanTheySee) {
   Structure s;
   s.bodies = {{.name = "a", .m = 2.0}, {.name = "b", .m = 3.0}};

@@ -207,6 +207,7 @@ TEST(SupportTable, WrongLawsAreToldWithTheirPlace) {
   told("response = \"\"\"\nreal, imag\n1, 2\n\"\"\"\nnumerator = [1]\ndenominator = [1, 1]\n",
        "response", "found two laws");
   told("form = \"receptance\"\nD = [[1]]\nangle = 0\n", "form", "belongs to numerator");
+  told("to = \"disk\"\nnumerator = [1]\ndenominator = [1, 1]\n", "to", "on itself");
   told("order = 4\nnumerator = [1]\ndenominator = [1, 1]\n", "order", "belongs to a response");
   told("to = \"foundation\"\nnumerator = [1]\ndenominator = [1, 1]\n", "to", "casing");
 }

@@ -33,6 +33,7 @@ ON_SOME = [
     ("modes", "two_disk_mac", {"over": {"operation.speed": "2000:4000:1000rpm"}, "modes": 3}),
     ("critical", "jeffcott", {"over": {"disk.1.mass": "1:3:1kg"}, "modes": 2}),
     ("unbalance", "jeffcott", {"over": {"disk.1.mass": "1:3:1kg"}, "speeds": "500:3500:1000rpm"}),
+    ("sensitivity", "magnetic_bearing", {"frequencies": "10:500:10Hz"}),
     ("simulate", "two_disk_mac", {**MOTION, "speed": "4430rpm"}),
     ("simulate", "two_disk_oil_film", {**MOTION, "method": "dop853"}),
     ("simulate", "blade_seal", {**MOTION, "stations": "all"}),

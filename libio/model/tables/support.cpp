@@ -52,7 +52,8 @@ std::vector<InterfaceCoordinate> coordinates_at(ModelReading& reading, TableRead
 std::vector<InterfaceCoordinate> read_interface(ModelReading& reading, TableReader& table,
                                                 std::vector<long>& rows) {
   const auto coordinates = coordinates_at(reading, table, "interface", &rows);
-  if (table.has("interface")) {
+  if (const ConfigNode* list = table.node("interface")) {
+    if (list->items.empty()) table.problem("interface", "expected one coordinate or more");
     for (const char* key : {"at", "node", "body", "to", "angle"}) {
       if (table.node(key)) table.problem(key, "belongs into the entries of interface");
     }
