@@ -187,7 +187,7 @@ class Equal(unittest.TestCase):
         self.compare_files(found, whirl.open("again.h5"), False)
 
     def test_a_study_of_a_file_goes_on(self):
-        m, options = model("jeffcott_stator"), dict(ON_SOME[14][2])
+        m, options = model("jeffcott_stator"), next(dict(words) for verb, _, words in ON_SOME if verb == "map")
         first = m.map(**options, out="map.h5")
         again = m.map(**options, out="map.h5")
         self.assertEqual(first.resumed, 0)
