@@ -65,6 +65,9 @@ struct ModelFamily::State {
     std::shared_ptr<const Model> model;
   };
   std::mutex mutex;
+  /// Trees that members were read from. The values of the next member take the place of theirs,
+  /// which is less than a copy of the whole tree.
+  std::vector<ConfigNode> trees;
   ReadRotor rotor;                          ///< the last one
   std::shared_ptr<const Scene> foundation;  ///< of the last member that was assembled or reduced
   std::deque<Known> last;
@@ -74,6 +77,31 @@ struct ModelFamily::State {
     Modes modes;
   };
   std::shared_ptr<const KnownModes> modes;  ///< of the last start
+};
+
+/// A tree of the family for as long as a member is read from it.
+class ModelFamily::Tree {
+ public:
+  explicit Tree(State& family) : family_(family) {
+    const std::lock_guard lock(family.mutex);
+    if (family.trees.empty()) {
+      root = family.root;
+    } else {
+      root = std::move(family.trees.back());
+      family.trees.pop_back();
+    }
+  }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+  ~Tree() {
+    const std::lock_guard lock(family_.mutex);
+    family_.trees.push_back(std::move(root));
+  }
+
+  ConfigNode root;
+
+ private:
+  State& family_;
 };
 
 ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
@@ -101,7 +129,8 @@ ModelFamily::ModelFamily(ModelFamily&&) noexcept = default;
 ModelFamily& ModelFamily::operator=(ModelFamily&&) noexcept = default;
 
 Model ModelFamily::model(std::span<const double> values) const {
-  ConfigNode root = state_->root;
+  Tree tree(*state_);
+  ConfigNode& root = tree.root;
   std::vector<double> of_rotor;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (state_->of_rotor[i]) of_rotor.push_back(values[i]);

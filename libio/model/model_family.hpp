@@ -44,6 +44,7 @@ class ModelFamily {
 
  private:
   struct State;
+  class Tree;
   std::unique_ptr<State> state_;
 };
 
