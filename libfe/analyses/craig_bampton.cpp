@@ -5,32 +5,13 @@
 #include <cmath>
 
 #include "libbase/error.hpp"
+#include "libfe/assembly/states_apart.hpp"
 #include "libfe/eigen/positive_factor.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {
 
 namespace {
-
-/// Columns of the identity: q = interface * u + inner * q_i.
-struct Parting {
-  Sparse interface, inner;
-
-  Parting(int n, const std::vector<int>& ports)
-      : interface(n, std::ssize(ports)), inner(n, n - std::ssize(ports)) {
-    std::vector<char> is_port(static_cast<std::size_t>(n), 0);
-    for (std::size_t k = 0; k < ports.size(); ++k) {
-      is_port[static_cast<std::size_t>(ports[k])] = 1;
-      interface.insert(ports[k], static_cast<int>(k)) = 1.0;
-    }
-    int column = 0;
-    for (int i = 0; i < n; ++i) {
-      if (!is_port[static_cast<std::size_t>(i)]) inner.insert(i, column++) = 1.0;
-    }
-    interface.makeCompressed();
-    inner.makeCompressed();
-  }
-};
 
 /// With inertia where there is none, as lumped masses leave rotations: so little that the fastest
 /// coordinate is a million times slower.
@@ -48,22 +29,27 @@ Sparse with_inertia_everywhere(const Sparse& M, const Sparse& K) {
   return all;
 }
 
-Sparse block(const Sparse& left, const Sparse& A, const Sparse& right) {
-  return left.transpose() * Sparse(A * right);
+/// The coordinates that are not in a list, in ascending order.
+std::vector<int> others(int size, const std::vector<int>& list) {
+  std::vector<int> left;
+  for (int i = 0; i < size; ++i) {
+    if (std::ranges::find(list, i) == list.end()) left.push_back(i);
+  }
+  return left;
 }
 
 }  // namespace
 
 StructureMatrices<Mat> craig_bampton(const StructureMatrices<Sparse>& structure,
                                      const std::vector<int>& interface, int modes) {
-  const Parting parting(structure.size(), interface);
-  const Sparse& I = parting.inner;
-  const Sparse K_i = block(I, structure.K, I), M_i = block(I, structure.M, I);
+  const Sparse ports = unit_columns(structure.size(), interface);
+  const Sparse I = unit_columns(structure.size(), others(structure.size(), interface));
+  const Sparse K_i = block_of(I, structure.K, I), M_i = block_of(I, structure.M, I);
   const auto inner = static_cast<int>(K_i.rows());
   const auto oscillating = static_cast<int>((M_i.diagonal().array() > 0.0).count());
   const int count = std::min(modes, oscillating);
   Mat shapes(structure.size(), std::ssize(interface) + count);
-  shapes.leftCols(std::ssize(interface)) = Mat(parting.interface);
+  shapes.leftCols(std::ssize(interface)) = Mat(ports);
   if (inner > 0) {
     const auto factor = positive_factor(K_i);
     if (!factor) {
@@ -71,7 +57,7 @@ StructureMatrices<Mat> craig_bampton(const StructureMatrices<Sparse>& structure,
           "the structure moves where its interface is held: it lacks supports, or parts of it hang "
           "together by nothing");
     }
-    const Mat coupling(block(I, structure.K, parting.interface));
+    const Mat coupling(block_of(I, structure.K, ports));
     shapes.leftCols(std::ssize(interface)) -= I * factor->solve(coupling);
     if (count > 0) {
       const RealModes found = lowest_real_modes(K_i, with_inertia_everywhere(M_i, K_i), count);

@@ -15,17 +15,20 @@ namespace {
 constexpr double singular = 1e-14;   ///< of a reciprocal condition
 constexpr double slow_share = 1e-6;  ///< of the fastest rate of the states
 
-/// Columns of the identity.
-Sparse selected(int rows, const std::vector<int>& columns) {
-  Sparse P(rows, std::ssize(columns));
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    P.insert(columns[j], static_cast<int>(j)) = 1.0;
+}  // namespace
+
+Sparse unit_columns(int size, const std::vector<int>& numbers) {
+  Sparse P(size, std::ssize(numbers));
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    P.insert(numbers[j], static_cast<int>(j)) = 1.0;
   }
   P.makeCompressed();
   return P;
 }
 
-}  // namespace
+Sparse block_of(const Sparse& left, const Sparse& A, const Sparse& right) {
+  return left.transpose() * Sparse(A * right);
+}
 
 StatesApart::StatesApart(const DofMap& dofs) {
   if (dofs.states.empty()) return;
@@ -39,8 +42,8 @@ StatesApart::StatesApart(const DofMap& dofs) {
     const bool is_one = first && is_state[static_cast<std::size_t>(first.row())];
     (is_one ? of_states : of_structure).push_back(j);
   }
-  structure = selected(dofs.size(), of_structure);
-  states = selected(dofs.size(), of_states);
+  structure = unit_columns(dofs.size(), of_structure);
+  states = unit_columns(dofs.size(), of_states);
 }
 
 Sparse stiffness_at_rest(const System& system, const StatesApart& parts) {
@@ -48,19 +51,16 @@ Sparse stiffness_at_rest(const System& system, const StatesApart& parts) {
   if (!parts.has_states()) return K;
   const Sparse& P = parts.structure;
   const Sparse& E = parts.states;
-  const Sparse K_s = P.transpose() * Sparse(K * P);
-  const auto block = [&](const Sparse& left, const Sparse& A, const Sparse& right) {
-    return Sparse(left.transpose() * Sparse(A * right));
-  };
-  Mat K_w(block(E, K, E));
-  Sparse in = block(E, K, P), out = block(P, K, E);
+  const Sparse K_s = block_of(P, K, P);
+  Mat K_w(block_of(E, K, E));
+  Sparse in = block_of(E, K, P), out = block_of(P, K, E);
   if (!(DenseLu<Mat>(K_w).rcond() > singular)) {
-    const Mat C_w(block(E, system.C, E));
+    const Mat C_w(block_of(E, system.C, E));
     const double s =
         slow_share * std::max(std::sqrt(K_w.cwiseAbs().maxCoeff()), C_w.cwiseAbs().maxCoeff());
     K_w += s * C_w + s * s * Mat::Identity(K_w.rows(), K_w.cols());
-    in += s * block(E, system.C, P);
-    out += s * block(P, system.C, E);
+    in += s * block_of(E, system.C, P);
+    out += s * block_of(P, system.C, E);
   }
   const Mat by_structure = DenseLu<Mat>(K_w).solve(Mat(in));
   return K_s - out * Sparse(by_structure.sparseView());

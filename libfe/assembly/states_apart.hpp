@@ -1,9 +1,17 @@
 #pragma once
 /// The structure of a system beside the states of its supports.
 
+#include <vector>
+
 #include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline fe {
+
+/// Columns of the identity of a size, by their numbers.
+Sparse unit_columns(int size, const std::vector<int>& numbers);
+
+/// left^T A right.
+Sparse block_of(const Sparse& left, const Sparse& A, const Sparse& right);
 
 /// The coordinates of a system, sorted: q = structure * q_s + states * w. Empty where no support
 /// has states.

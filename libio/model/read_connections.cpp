@@ -133,6 +133,22 @@ ModelTable connection_table(std::string_view name, std::string_view meaning,
           .notes = {{"kind", "how its coefficients are given; left out: told by the other keys"}}};
 }
 
+void read_link_keys(ModelReading& reading, TableReader& table, std::string_view word,
+                    Connection& to) {
+  const bool has_values = read_coefficients(reading, table, to.coefficients);
+  to.is_clamped = table.boolean("clamped").value_or(false);
+  to.is_rigid = table.boolean("rigid").value_or(false) || to.is_clamped;
+  if (!has_values && !to.is_rigid) {
+    table.missing("stiffness", "a stiffness (N/m), damping, rigid = true or clamped = true",
+                  {"damping", "tilt_stiffness", "tilt_damping", "added_mass", "rigid", "clamped"});
+  }
+  if (has_values && to.is_rigid) {
+    table.problem(
+        "rigid",
+        fmt::format("a rigid {} has no stiffness or damping of its own; leave them out", word));
+  }
+}
+
 void read_connections(ModelReading& reading, const char* array, std::vector<Connection>& to) {
   reading.for_each(array, [&](TableReader& table, std::size_t i) {
     Connection c;

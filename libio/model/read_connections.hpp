@@ -20,4 +20,10 @@ void read_connections(ModelReading& reading, const char* array, std::vector<Conn
 /// @return  whether any is there
 bool read_coefficients(ModelReading& reading, TableReader& table, AnyBearing& to);
 
+/// The keys of what lies between two stations: coefficients, or rigid or clamped, one of which must
+/// be there.
+/// @param word  for messages: "link"
+void read_link_keys(ModelReading& reading, TableReader& table, std::string_view word,
+                    Connection& to);
+
 }  // namespace whirl::inline io

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -74,7 +73,6 @@ class CouplingLoads {
   void add_orders(double order, double force, double phase, double moment, double moment_phase) {
     const Turning turning = order_ < 0.0 ? Turning::backward : Turning::forward;
     const double orders = order * std::abs(order_);
-    // a load that whirls backward begins at its phase, too
     add({.kind = ForceKind::force,
          .size = force,
          .turning = turning,
@@ -109,13 +107,10 @@ class CouplingLoads {
 /// Speed of what is at a station over that of the first shaft.
 double ratio_at(const ModelReading& reading, const Station& station) {
   const Structure& s = reading.model.structure;
-  std::string name = station.rotor;
-  if (const Body* body = reading.body_at(station)) {
-    if (!body->spins) return 0.0;
-    name = body->rotor;
-  }
-  const auto rotor = std::ranges::find(s.rotors, name, &Rotor::name);
-  return rotor == s.rotors.end() ? 1.0 : rotor->ratio;
+  const Body* body = reading.body_at(station);
+  if (body && !body->spins) return 0.0;
+  const auto shaft = s.shaft_named(body ? body->rotor : station.rotor);
+  return shaft ? s.shafts()[static_cast<std::size_t>(*shaft)].ratio : 1.0;
 }
 
 /// What a coupling has beside its springs and dampers.
@@ -189,18 +184,7 @@ void read_couplings(ModelReading& reading) {
     c.name = table.string("name").value_or(fmt::format("coupling {}", i + 1));
     const auto from = station_at(reading, table, "from", false);
     const auto to = station_at(reading, table, "to", false);
-    const bool has_values = read_coefficients(reading, table, c.coefficients);
-    c.is_clamped = table.boolean("clamped").value_or(false);
-    c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
-    if (!has_values && !c.is_rigid) {
-      table.missing(
-          "stiffness", "a stiffness (N/m), tilt_stiffness, rigid = true or clamped = true",
-          {"damping", "tilt_stiffness", "tilt_damping", "added_mass", "rigid", "clamped"});
-    }
-    if (has_values && c.is_rigid) {
-      table.problem("rigid",
-                    "a rigid coupling has no stiffness or damping of its own; leave them out");
-    }
+    read_link_keys(reading, table, "coupling", c);
     const CouplingKeys keys = read_keys(reading, table, c.is_rigid);
     if (!from || !to) return;
     c.from = *from;

@@ -4,8 +4,8 @@
 
 #include "libio/model/model_reading.hpp"
 #include "libio/model/model_table.hpp"
-#include "libio/model/read_parts.hpp"
 #include "libio/model/read_connections.hpp"
+#include "libio/model/read_parts.hpp"
 
 namespace whirl::inline io {
 
@@ -19,17 +19,7 @@ void read_links(ModelReading& reading) {
     for (const auto& [key, end] : {std::pair("from", &c.from), std::pair("to", &c.to)}) {
       if (const auto station = station_at(reading, table, key, true)) *end = *station;
     }
-    const bool has_values = read_coefficients(reading, table, c.coefficients);
-    c.is_clamped = table.boolean("clamped").value_or(false);
-    c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
-    if (!has_values && !c.is_rigid) {
-      table.missing(
-          "stiffness", "a stiffness (N/m), damping, rigid = true or clamped = true",
-          {"damping", "tilt_stiffness", "tilt_damping", "added_mass", "rigid", "clamped"});
-    }
-    if (has_values && c.is_rigid) {
-      table.problem("rigid", "a rigid link has no stiffness or damping of its own; leave them out");
-    }
+    read_link_keys(reading, table, "link", c);
     reading.model.structure.links.push_back(c);
   });
 }
