@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "libcontact/friction.hpp"
 #include "libcontact/laws.hpp"
@@ -31,6 +34,23 @@ struct Contact {
 
 inline AnyGeometry geometry_of(const Contact& contact) {
   return own_geometry(contact.law).value_or(contact.geometry);
+}
+
+/// Whether a contact is a rolling bearing, which carries the rotor, and not one with a stator.
+inline bool is_rolling_bearing(const Contact& contact) {
+  return std::holds_alternative<geometry::RollingElements>(contact.geometry);
+}
+
+/// The rolling bearings among contacts, or the contacts with stators among them.
+inline std::vector<Contact> rolling_bearings(const std::vector<Contact>& all) {
+  std::vector<Contact> found;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(found), is_rolling_bearing);
+  return found;
+}
+inline std::vector<Contact> stator_contacts(const std::vector<Contact>& all) {
+  std::vector<Contact> found;
+  std::remove_copy_if(all.begin(), all.end(), std::back_inserter(found), is_rolling_bearing);
+  return found;
 }
 
 }  // namespace whirl::inline contact

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "libcontact/geometry/blade_row.hpp"
 #include "libcontact/geometry/ellipse.hpp"
 #include "libcontact/geometry/face.hpp"
 #include "libcontact/geometry/ring.hpp"
+#include "libcontact/geometry/rolling_elements.hpp"
 #include "libcontact/geometry/stop.hpp"
 
 namespace whirl::inline contact {
@@ -18,7 +20,8 @@ using AnyGeometry = std::variant<  //
     geometry::Face,                //
     geometry::BladeRow,            //
     geometry::Stop,                //
-    geometry::Ellipse>;
+    geometry::Ellipse,             //
+    geometry::RollingElements>;
 
 inline std::string_view name_of(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.name; }, any);
@@ -44,8 +47,27 @@ inline bool is_wall(const AnyGeometry& any) {
 inline int places_of(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.places(); }, any);
 }
-inline AnyGeometry place_of(const AnyGeometry& any, int i, double Omega) {
-  return std::visit([&](const auto& g) { return AnyGeometry(g.place(i, Omega)); }, any);
+inline AnyGeometry place_of(const AnyGeometry& any, int i, const PartSpeeds& speeds) {
+  return std::visit([&](const auto& g) { return AnyGeometry(g.place(i, speeds)); }, any);
+}
+/// The elements of a rolling bearing; null: it is another geometry.
+inline const geometry::RollingElements* rolling_elements(const AnyGeometry& any) {
+  return std::get_if<geometry::RollingElements>(&any);
+}
+/// How far the rotor may move from the middle before a place can touch [m]; at most zero where one
+/// always may.
+inline double slack_of(const AnyGeometry& any, double clearance) {
+  const auto* row = rolling_elements(any);
+  return row ? row->slack() : clearance;
+}
+/// Speed of a place that turns over the rate of the phase; 0 of what stands.
+inline double turning_ratio_of(const AnyGeometry& any) {
+  return std::visit(
+      [](const auto& g) {
+        if constexpr (std::remove_cvref_t<decltype(g)>::turns) return g.ratio;
+        return 0.0;
+      },
+      any);
 }
 inline double arm_of(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.arm(); }, any);
@@ -97,6 +119,17 @@ inline double distance_of(const AnyGeometry& any, double clearance, const Vec2& 
 inline double reach_of(const AnyGeometry& any, double clearance, const Vec2& along) {
   if (!is_wall(any)) return clearance;
   return clearance * clearance / distance_of(any, clearance, clearance * along);
+}
+
+/// Speeds over the rate of the phase, each of which a contact that turns repeats with: its places are
+/// alike, so that it does when one is where another was; shapes of a race repeat with the race.
+inline std::vector<double> repeating_ratios_of(const AnyGeometry& any) {
+  std::vector<double> ratios;
+  if (turns(any)) ratios.push_back(places_of(any) * turning_ratio_of(any));
+  if (const auto* row = rolling_elements(any)) {
+    for (const auto& shape : row->shapes) ratios.push_back(row->ratio - shape.ratio / shape.order);
+  }
+  return ratios;
 }
 
 /// The direction in which a place at u from the middle meets a geometry.

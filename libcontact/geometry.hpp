@@ -8,16 +8,16 @@
 ///   static constexpr bool rubs_apart;         only friction acts on the lateral displacement
 ///   static constexpr bool may_stick;          friction may switch its sign at once and stick
 ///   static constexpr bool takes_offset;       the clearance may lie off the rotor's axis
-///   static constexpr bool turns;              the place turns with the rotor: the phase matters
+///   static constexpr bool turns;              the place turns: when it is matters
 ///   static constexpr bool is_wall;            it is met all around, on a curve that is no circle
 ///   static constexpr auto fields();           keys of one that laws share (struct field)
 ///   int places() const;                       of one contact of the model
-///   Self place(i, Omega) const;               number i of them at a spin [rad/s]
+///   Self place(i, speeds) const;              number i of them at speeds of what touches
 ///   double arm() const;                       of the closing motion, u = arm times it [m, or 1]
 ///   double tip_radius() const;                of the place about the rotor's axis, 0: at u [m]
 ///   std::optional<double> rim_radius() const; that slips; nothing: the contact says it [m]
 ///   std::optional<Vec2> direction() const;    the one in which it is met; nothing: all around
-///   ContactGap<T> gap(space, phase, motion) const;   kinematics, for doubles and duals
+///   ContactGap<T> gap(space, at, motion) const;   kinematics, for doubles and duals
 ///   double beyond(gap, space) const;          above zero in touch, smooth, of order one
 ///   std::optional<Polynomial> beyond(x, y) const;   the same of d / clearance along a path
 ///
@@ -39,6 +39,7 @@
 
 #include "libbase/numerics/linalg.hpp"
 #include "libbase/numerics/polynomial.hpp"
+#include "libbase/structs/instant.hpp"
 
 namespace whirl::inline contact {
 
@@ -52,6 +53,18 @@ enum class Closing {
 struct ContactSpace {
   double clearance = 0.0;  ///< [m]
   double rim_speed = 0.0;  ///< of the rotor's surface in the slip [m/s]
+};
+
+/// How fast the two parts of a contact turn.
+struct PartSpeeds {
+  double Omega = 0.0;    ///< of the first shaft [rad/s]
+  double at = 1.0;       ///< of the part that touches, over it
+  double against = 0.0;  ///< of the part that it touches, over it
+
+  /// Ratio of a speed to the rate of the phase, which is |Omega|; 0 without spin.
+  double by_phase(double ratio) const {
+    return Omega > 0.0 ? ratio : Omega < 0.0 ? -ratio : 0.0;
+  }
 };
 
 /// Motion of a place over (d, w, v): displacement from the middle of the clearance [m], its rate,

@@ -9,6 +9,7 @@
 #include "libcontact/laws/blade_tip.hpp"
 #include "libcontact/laws/face.hpp"
 #include "libcontact/laws/hertz.hpp"
+#include "libcontact/laws/line.hpp"
 #include "libcontact/laws/radial.hpp"
 
 namespace whirl::inline contact {
@@ -17,6 +18,7 @@ template <class R = double>
 using AnyContactLaw = std::variant<  //
     Radial<R>,                       //
     Hertz<R>,                        //
+    Line<R>,                         //
     Face<R>,                         //
     BladeTip<R>>;
 
@@ -50,6 +52,16 @@ inline bool is_damped(const AnyContactLaw<>& law) {
 inline bool is_analytic(const AnyContactLaw<>& law) {
   return std::visit([](const auto& l) { return std::remove_cvref_t<decltype(l)>::is_analytic; },
                     law);
+}
+
+/// The depth over the clearance at which the series of a law without one at the surface begins.
+inline double least_depth(const AnyContactLaw<>& law) {
+  return std::visit(
+      [](const auto& l) {
+        if constexpr (requires { l.least_depth; }) return l.least_depth;
+        return 1e-8;
+      },
+      law);
 }
 
 /// Whether a law is for a geometry of its own.

@@ -44,6 +44,13 @@ struct Dual {
     const double root = std::sqrt(a.value);
     return {root, a.slopes / (2.0 * root)};
   }
+  friend Dual ninth_root(const Dual& a) {
+    const double root = a.value > 0.0 ? std::pow(a.value, 1.0 / 9.0) : 0.0;
+    return {root, root / (9.0 * a.value) * a.slopes};
+  }
+  friend Dual exp(const Dual& a) { return {std::exp(a.value), std::exp(a.value) * a.slopes}; }
+  friend Dual sin(const Dual& a) { return {std::sin(a.value), std::cos(a.value) * a.slopes}; }
+  friend Dual cos(const Dual& a) { return {std::cos(a.value), -std::sin(a.value) * a.slopes}; }
   friend Dual tanh(const Dual& a) {
     const double y = std::tanh(a.value);
     return {y, (1.0 - y * y) * a.slopes};

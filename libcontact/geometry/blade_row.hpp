@@ -6,10 +6,10 @@
 
 namespace whirl::inline contact::geometry {
 
-/// Tips of blades that turn with the rotor, in a circle; one place for each blade.
+/// Tips of blades that turn with their shaft, in a circle; one place for each blade.
 ///
 /// A tip is at u + tip (cos, sin)(Omega t + angle): its own velocity is in that of the gap, so that
-/// the slip needs no rim speed.
+/// the rim speed in the slip is that of what it touches, sign reversed.
 struct BladeRow {
   static constexpr std::string_view name = "blades";
   static constexpr Closing closing = Closing::lateral;
@@ -24,13 +24,14 @@ struct BladeRow {
 
   // of one blade, at a spin
   double cosine = 1.0, sine = 0.0;  ///< of its angle
-  double sense = 0.0;               ///< 1, or 0 without spin
+  double ratio = 0.0;               ///< of its speed to the rate of the phase
   double speed = 0.0;               ///< Omega tip [m/s]
 
   int places() const { return blades; }
-  BladeRow place(int i, double Omega) const {
+  BladeRow place(int i, const PartSpeeds& s) const {
     const double angle = 2.0 * std::numbers::pi * i / blades;
-    return {blades, tip, std::cos(angle), std::sin(angle), Omega != 0.0 ? 1.0 : 0.0, Omega * tip};
+    return {blades,         tip,          std::cos(angle), std::sin(angle), s.by_phase(s.at),
+            s.Omega * s.at * tip};
   }
   double arm() const { return 1.0; }
   double tip_radius() const { return tip; }
@@ -38,16 +39,16 @@ struct BladeRow {
   std::optional<Vec2> direction() const { return std::nullopt; }
 
   /// From the rotor's axis to the tip.
-  Vec2 axis(double phase) const {
-    const double c = std::cos(sense * phase), s = std::sin(sense * phase);
+  Vec2 axis(const Instant& at) const {
+    const double turned = angle_at(ratio, at), c = std::cos(turned), s = std::sin(turned);
     return {c * cosine - s * sine, s * cosine + c * sine};
   }
 
   bool operator==(const BladeRow&) const = default;
 
   template <class T>
-  ContactGap<T> gap(const ContactSpace& space, double phase, const GapMotion<T>& m) const {
-    const Vec2 e = axis(phase), along(-e(1), e(0));
+  ContactGap<T> gap(const ContactSpace& space, const Instant& at, const GapMotion<T>& m) const {
+    const Vec2 e = axis(at), along(-e(1), e(0));
     GapMotion<T> of_tip = m;
     for (std::size_t i = 0; i < 2; ++i) {
       const auto k = static_cast<Eigen::Index>(i);
@@ -55,7 +56,7 @@ struct BladeRow {
       of_tip.w[i] = m.w[i] + speed * along(k);
     }
     of_tip.v = of_tip.w;
-    return gap_to_circle(of_tip, space.clearance + tip, 0.0);
+    return gap_to_circle(of_tip, space.clearance + tip, space.rim_speed);
   }
   double beyond(const ContactGap<double>& gap, const ContactSpace& space) const {
     const double circle = space.clearance + tip;

@@ -44,7 +44,7 @@ struct Ellipse {
   }
 
   int places() const { return 1; }
-  Ellipse place(int, double) const { return *this; }
+  Ellipse place(int, const PartSpeeds&) const { return *this; }
   double arm() const { return 1.0; }
   double tip_radius() const { return 0.0; }
   std::optional<double> rim_radius() const { return std::nullopt; }
@@ -83,7 +83,7 @@ struct Ellipse {
   }
 
   template <class T>
-  ContactGap<T> gap(const ContactSpace& space, double, const GapMotion<T>& m) const {
+  ContactGap<T> gap(const ContactSpace& space, const Instant&, const GapMotion<T>& m) const {
     WallNumbers<T> of;
     std::ranges::copy(numbers(space.clearance), of.begin());
     return gap_to_wall<Ellipse>(m, of, T(space.clearance), T(space.rim_speed));

@@ -22,7 +22,7 @@ struct Face {
   double radius = 0.0;  ///< of the rim [m]
 
   int places() const { return 1; }
-  Face place(int, double) const { return *this; }
+  Face place(int, const PartSpeeds&) const { return *this; }
   double arm() const { return radius; }
   double tip_radius() const { return 0.0; }
   std::optional<double> rim_radius() const { return radius; }
@@ -31,7 +31,7 @@ struct Face {
   bool operator==(const Face&) const = default;
 
   template <class T>
-  ContactGap<T> gap(const ContactSpace& space, double, const GapMotion<T>& m) const {
+  ContactGap<T> gap(const ContactSpace& space, const Instant&, const GapMotion<T>& m) const {
     return gap_to_circle(m, space.clearance, space.rim_speed);
   }
   double beyond(const ContactGap<double>& gap, const ContactSpace& space) const {

@@ -19,7 +19,7 @@ struct Ring {
   static constexpr auto fields() { return std::tuple{}; }
 
   int places() const { return 1; }
-  Ring place(int, double) const { return *this; }
+  Ring place(int, const PartSpeeds&) const { return *this; }
   double arm() const { return 1.0; }
   double tip_radius() const { return 0.0; }
   std::optional<double> rim_radius() const { return std::nullopt; }
@@ -28,7 +28,7 @@ struct Ring {
   bool operator==(const Ring&) const = default;
 
   template <class T>
-  ContactGap<T> gap(const ContactSpace& space, double, const GapMotion<T>& m) const {
+  ContactGap<T> gap(const ContactSpace& space, const Instant&, const GapMotion<T>& m) const {
     return gap_to_circle(m, space.clearance, space.rim_speed);
   }
   double beyond(const ContactGap<double>& gap, const ContactSpace& space) const {

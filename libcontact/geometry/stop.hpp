@@ -31,7 +31,7 @@ struct Stop {
   }
 
   int places() const { return 1; }
-  Stop place(int, double) const { return *this; }
+  Stop place(int, const PartSpeeds&) const { return *this; }
   double arm() const { return 1.0; }
   double tip_radius() const { return 0.0; }
   std::optional<double> rim_radius() const { return std::nullopt; }
@@ -39,7 +39,7 @@ struct Stop {
   bool operator==(const Stop&) const = default;
 
   template <class T>
-  ContactGap<T> gap(const ContactSpace& space, double, const GapMotion<T>& m) const {
+  ContactGap<T> gap(const ContactSpace& space, const Instant&, const GapMotion<T>& m) const {
     const Vec2 n = *direction();
     ContactGap<T> g;
     g.r = T(std::numeric_limits<double>::infinity());

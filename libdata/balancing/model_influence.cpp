@@ -18,7 +18,7 @@ namespace {
 
 /// Where the rotor rests, a full vector.
 Vec rest_of(const Model& model, const Assembler& assembler, double Omega) {
-  if (!has_linear_films(model)) return static_equilibrium(assembler, Omega).displacement;
+  if (!has_working_point(model)) return static_equilibrium(assembler, Omega).displacement;
   const auto on_films = FilmEquilibrium(model).at(Omega);
   return on_films->system.dofs.T * on_films->q;
 }
@@ -65,7 +65,8 @@ std::vector<std::string> touched_contacts(const Model& model, const std::vector<
       turning.col(i) << 1.0, std::cos(angle), std::sin(angle);
     }
     const auto distances = largest_distances(model, assembler, basis, turning);
-    for (std::size_t c = 0; c < model.contacts.size(); ++c) {  // the first of all clearances
+    const std::size_t contacts = stator_contacts(model.contacts).size();
+    for (std::size_t c = 0; c < contacts; ++c) {  // the first of all clearances
       if (distances[c].left() > 0.0) continue;
       touched.push_back(fmt::format("{} at {:.6g} rpm", distances[c].name, Omega / rpm));
     }

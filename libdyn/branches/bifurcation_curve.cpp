@@ -324,7 +324,7 @@ void find_graze(const ContactSystem& system, std::size_t contact, const Step& st
   Vec y(system.size());
   const auto at = [&](double s) {
     step.at(s, y.data());
-    return kinematics(c, step.angle(s), y.data(), system.layout());
+    return kinematics(c, step.instant(s), y.data(), system.layout());
   };
   const auto rate_at = [&](double s) { return at(s).rate; };
   const auto take = [&](double s) {

@@ -125,14 +125,14 @@ void FreeFlight::prepare() {
   const DenseLu<Mat> factors(P_);
   decays_ = true;
   for (const ReducedContact& c : system_.contacts()) {
-    if (c.place > 0) continue;  // as for the first: none touches before u has the clearance
+    if (c.place > 0) continue;  // as for the first: none touches before u has the slack
     Mat rows = Mat::Zero(layout.size(), 2);
     const Mat2 seen = projection_of(c.geometry);
     const Mat U = seen * c.U;
     layout.eta(rows) = U.transpose();
     const Mat spread = rows.transpose() * factors.solve(rows);
     const double reach = symmetric_modes(0.5 * (spread + spread.transpose())).values(1);
-    const double left = careful * c.clearance - largest_radius(U * eta.col(0) - seen * c.offset,
+    const double left = careful * slack_of(c.geometry, c.clearance) - largest_radius(U * eta.col(0) - seen * c.offset,
                                                                U * eta.col(1), U * eta.col(2));
     left_.push_back(left);
     room_.push_back(left > 0.0 ? careful * left * left / reach : -1.0);

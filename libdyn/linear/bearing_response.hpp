@@ -30,7 +30,7 @@ struct BearingResponse {
     using enum Written;
     using B = BearingResponse;
     return ColumnList{
-        column("kind", &B::kind, "", "bearing, seal, link or oil film"),
+        column("kind", &B::kind, "", "bearing, seal, link, oil film or rolling bearing"),
         column("name", &B::name, "", "its name").axis(),
         column("force", &B::force, "N", "largest force in a period").only(in_json),
         column("x_phase_deg", &B::x_phase, "", "of the force along x").only(in_json),

@@ -72,7 +72,7 @@ struct ResponsePair {
   }
 };
 
-/// Force on a bearing, seal, link or oil film by a force of size one, over frequency.
+/// Force on a bearing, seal, link, oil film or rolling bearing by a force of size one, over frequency.
 struct TransmittedForce {
   std::string from;        ///< the force
   std::string kind, name;  ///< of the part that carries
@@ -82,7 +82,7 @@ struct TransmittedForce {
     using T = TransmittedForce;
     return ColumnList{
         column("from", &T::from, "", "station and direction of the force"),
-        column("kind", &T::kind, "", "bearing, seal, link or oil film"),
+        column("kind", &T::kind, "", "bearing, seal, link, oil film or rolling bearing"),
         column("name", &T::name, "", "its name"),
         column("force_x", &T::x, "", "force on it along x by force").along("frequencies"),
         column("force_y", &T::y, "", "force on it along y by force").along("frequencies")};

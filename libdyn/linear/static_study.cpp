@@ -16,6 +16,7 @@ StaticStudy static_study(const Model& model, const Assembler& assembler) {
   RestingRotor rotor = resting_rotor(model, assembler, model.speed);
   study.at_rest = std::move(rotor.at_rest);
   study.on_films = {std::move(rotor.films)};
+  study.on_elements = {std::move(rotor.rolling)};
   const Vec& displacement = study.at_rest.displacement;
   study.line = bending_line(assembler, model.speed, displacement);
   const DofMap& dofs = assembler.dofs();

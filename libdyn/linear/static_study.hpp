@@ -8,6 +8,7 @@
 
 #include "libbase/structs/column.hpp"
 #include "libdyn/system/probes.hpp"
+#include "libdyn/system/running_bearing.hpp"
 #include "libdyn/system/running_film.hpp"
 #include "libfe/analyses/bending.hpp"
 #include "libfe/analyses/static.hpp"
@@ -47,6 +48,7 @@ struct StaticStudy {
   std::vector<RestingStation> stations;  ///< all named places
   StaticEquilibrium at_rest;
   RunningFilms on_films;
+  RunningBearings on_elements;
   BendingLine line;
   double speed = 0.0;  ///< [rad/s]
   bool has_gravity = true;
@@ -66,12 +68,18 @@ struct StaticStudy {
                           [](const S& s) -> const auto& { return s.on_films.films; }, "films")
                           .maybe()
                           .only(Written::in_json),
+                      rows(
+                          [](const S& s) -> const auto& { return s.on_elements.bearings; },
+                          "rolling_bearings")
+                          .maybe()
+                          .only(Written::in_json),
                       column("shaft", &S::line, "", "how the shaft bends"),
                       rows(&S::probes, "probes").maybe().only(Written::in_json)};
   }
 };
 
-/// The equilibrium of a model at its speed; films carry as at that speed, contacts are left out.
+/// The equilibrium of a model at its speed; films carry as at that speed, contacts with stators
+/// are left out.
 /// @throws ModelError      as static_equilibrium
 /// @throws NumericalError  as FilmEquilibrium::at
 StaticStudy static_study(const Model& model, const Assembler& assembler);

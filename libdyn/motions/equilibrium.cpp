@@ -61,12 +61,22 @@ std::optional<HeldRotor> held_rotor(const ContactSystem& system,
   return held;
 }
 
-/// Whether any contact is reached at a place.
+/// Elements of rolling bearings, which carry a rotor as films do.
+std::vector<ReducedContact> elements_of(const ContactSystem& system) {
+  std::vector<ReducedContact> elements;
+  for (const ReducedContact& c : system.contacts()) {
+    if (rolling_elements(c.geometry)) elements.push_back(c);
+  }
+  return elements;
+}
+
+/// Whether any contact with a stator is reached at a place.
 bool any_pushes(const ContactSystem& system, const Vec& eta) {
   Vec y = Vec::Zero(system.size());
   system.layout().eta(y) = eta;
   return std::any_of(system.contacts().begin(), system.contacts().end(), [&](const auto& c) {
-    return kinematics(c, 0.0, y.data(), system.layout()).depth > 0.0;
+    return !rolling_elements(c.geometry) &&
+           kinematics(c, 0.0, y.data(), system.layout()).depth > 0.0;
   });
 }
 
@@ -86,21 +96,23 @@ Vec ports_at(const ContactSystem& system, const HeldRotor& held, const Vec& eta)
 }  // namespace
 
 Vec equilibrium(const ContactSystem& system) {
-  const bool has_films = !system.films().empty();
+  const std::vector<ReducedContact> elements = elements_of(system);
+  const bool has_bearings = !system.films().empty() || !elements.empty();
   const std::vector<FilmAtSpeed> films(system.films().begin(), system.films().end());
-  const auto held = held_rotor(system, {});
+  const auto held = held_rotor(system, elements);
   if (!held) {
-    throw NumericalError(has_films ? "the rotor has no equilibrium: it is not held, even where oil "
-                                     "films hold its journals"
-                                   : "the rotor has no equilibrium: it is not held");
+    throw NumericalError(has_bearings
+                             ? "the rotor has no equilibrium: it is not held, even where oil films "
+                               "and rolling bearings hold its journals"
+                             : "the rotor has no equilibrium: it is not held");
   }
   std::optional<Vec> eta;  // as if there were no contacts
-  if (const auto place = PortBalance(*held, films).find()) {
+  if (const auto place = PortBalance(*held, films, elements).find()) {
     eta = held->rest + held->shapes * place->w;
     if (!any_pushes(system, *eta)) return *eta;
   }
   const auto with_contacts =
-      system.contacts().empty() ? std::nullopt : held_rotor(system, system.contacts());
+      system.contacts().size() == elements.size() ? std::nullopt : held_rotor(system, system.contacts());
   if (with_contacts) {
     const PortBalance balance(*with_contacts, films, system.contacts());
     const auto place = eta ? balance.find(ports_at(system, *with_contacts, *eta)) : balance.find();

@@ -189,7 +189,7 @@ struct ProbeSignal : ProbeLabel {
   }
 };
 
-/// Force of the rotor on a bearing, seal, link or oil film over a motion.
+/// Force of the rotor on a bearing, seal, link, oil film or rolling bearing over a motion.
 struct SupportForce {
   std::string kind, name;
   Vec x, y;  ///< per sample [N]
@@ -197,7 +197,7 @@ struct SupportForce {
   static constexpr auto columns() {
     using S = SupportForce;
     return ColumnList{
-        column("name", &S::name, "", "bearing, seal, link or oil film").axis(),
+        column("name", &S::name, "", "bearing, seal, link, oil film or rolling bearing").axis(),
         column("kind", &S::kind, "", "which of these"),
         column("force_x", &S::x, "N", "force of the rotor on it along x").along("samples"),
         column("force_y", &S::y, "N", "force of the rotor on it along y").along("samples")};

@@ -26,7 +26,7 @@ Vec at_rest_under_gravity(const Model& model, const Scene& scene) {
   const bool is_loaded = model.structure.gravity != 0.0 || has_constant_force(model.structure) ||
                          !scene.contacts.constant_load().isZero(0.0);
   if (!is_loaded) return Vec::Zero(scene.contacts.coordinates());
-  if (model.films.empty()) {
+  if (model.films.empty() && rolling_bearings(model.contacts).empty()) {
     require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
   }
   return equilibrium(scene.contacts);

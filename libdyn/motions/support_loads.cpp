@@ -33,12 +33,16 @@ std::vector<SupportLoads::Part> SupportLoads::parts_of(const Model& model,
     parts.push_back({std::string(part.kind), part.name});
   }
   for (const OilFilm& film : model.films) parts.push_back({"oil film", film.name});
+  for (const Contact& bearing : rolling_bearings(model.contacts)) {
+    parts.push_back({"rolling bearing", bearing.name});
+  }
   return parts;
 }
 
 SupportLoads::SupportLoads(const Model& model, const Scene& scene)
     : parts_(parts_of(model, scene.assembler)),
-      first_film_(static_cast<Eigen::Index>(2 * (parts_.size() - model.films.size()))) {
+      first_film_(2 * (std::ssize(parts_) - std::ssize(model.films) -
+                       std::ssize(rolling_bearings(model.contacts)))) {
   const Assembler& assembler = scene.assembler;
   const double Omega = scene.system.Omega;
   for (const CarryingPart& part : carrying_parts(assembler)) {
@@ -48,6 +52,10 @@ SupportLoads::SupportLoads(const Model& model, const Scene& scene)
   const Mat map = scene.displacement_map();
   K_ = forces.K * map, C_ = forces.C * map, M_ = forces.M * map;
   needs_acceleration_ = !M_.isZero(0.0);
+  Eigen::Index row = first_film_ + 2 * std::ssize(model.films);
+  for (const Contact& c : model.contacts) {
+    rows_of_bearings_.push_back(is_rolling_bearing(c) ? std::exchange(row, row + 2) : -1);
+  }
   if (!has_rigid_) return;
   add_loads(assembler, scene.contacts, forces.L);
   const DofMap full = of_full_vector(assembler.dofs());
@@ -91,11 +99,15 @@ void SupportLoads::at(const ContactSystem& system, const Instant& instant, const
     const double angle = load.angle(instant);
     linear += load.cosine * std::cos(angle) + load.sine * std::sin(angle);
   }
-  for (std::size_t i = 0; i < forces.size() && has_rigid_; ++i) {
+  for (std::size_t i = 0; i < forces.size(); ++i) {
     if (!states[i].in_touch()) continue;
     const ReducedContact& contact = system.contacts()[i];
-    const ContactShares& share = of_contacts_[static_cast<std::size_t>(contact.owner)];
+    const auto owner = static_cast<std::size_t>(contact.owner);
     const ContactForces& f = forces[i];
+    const Eigen::Index row = rows_of_bearings_[owner];
+    if (row >= 0) out.segment<2>(row) += f.normal * f.n;
+    if (!has_rigid_) continue;
+    const ContactShares& share = of_contacts_[owner];
     linear -= share.closing * (f.normal * f.n);
     linear -= (contact.rubs_apart() ? share.rubbing : share.closing) * (f.friction * f.t());
   }

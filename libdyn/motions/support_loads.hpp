@@ -21,11 +21,11 @@ struct Model;
 class SupportLoads {
  public:
   struct Part {
-    std::string kind;  ///< "bearing", "seal", "link", "oil film"
+    std::string kind;  ///< "bearing", "seal", "link", "oil film", "rolling bearing"
     std::string name;
   };
 
-  /// What carries a rotor: bearings, seals, links, oil films.
+  /// What carries a rotor: bearings, seals, links, oil films, rolling bearings.
   static std::vector<Part> parts_of(const Model& model, const Assembler& assembler);
 
   /// @param scene  of the model at its speed
@@ -57,12 +57,13 @@ class SupportLoads {
   std::vector<ContactShares> of_contacts_;  // of the model; empty: no part is rigid
   std::vector<Share> of_films_;             // likewise
   Eigen::Index first_film_ = 0;             // row
+  std::vector<Eigen::Index> rows_of_bearings_;  // of all contacts; -1: of one with a stator
   bool has_rigid_ = false, needs_acceleration_ = false;
 };
 
 /// Forces on one part over a recorded motion, in short.
 struct SupportLoad {
-  std::string kind;  ///< "bearing", "seal", "link", "oil film"
+  std::string kind;  ///< "bearing", "seal", "link", "oil film", "rolling bearing"
   std::string name;
   double mean_fx = 0.0, mean_fy = 0.0;                  ///< [N]
   double largest = 0.0;                                 ///< largest force, with its mean [N]
@@ -75,7 +76,7 @@ struct SupportLoad {
   static constexpr auto columns() {
     using S = SupportLoad;
     return ColumnList{
-        column("kind", &S::kind, "", "bearing, seal, link or oil film"),
+        column("kind", &S::kind, "", "bearing, seal, link, oil film or rolling bearing"),
         column("name", &S::name, "", "its name"),
         column("mean_fx", &S::mean_fx, "N", "mean force of the rotor on it along x"),
         column("mean_fy", &S::mean_fy, "N", "mean force of the rotor on it along y"),

@@ -160,7 +160,7 @@ struct SweepResult {
                 .axis("probe_orders+")
                 .within(valid::finite)
                 .maybe(),
-            column("support", &C::supports, "", "bearing, seal, link or oil film with its name")
+            column("support", &C::supports, "", "bearing, seal, link, oil film or rolling bearing with its name")
                 .axis("supports+")
                 .maybe(),
             rows(&C::points, "point")});

@@ -31,15 +31,15 @@ std::string_view name_of(Need need) {
     case Need::other_orders:
       return "a force of another order than 1";
     case Need::several_revolutions:
-      return "forces that repeat after several revolutions only";
+      return "forces or cages that repeat after several revolutions only";
     case Need::irrational_orders:
-      return "a force of an order that is no fraction of small whole numbers";
+      return "a force or cage of an order that is no fraction of small whole numbers";
     case Need::own_frequencies:
       return "a force with a frequency of its own";
     case Need::films:
       return "an oil film";
     case Need::blades:
-      return "a contact of blades";
+      return "a contact of blades or rolling elements";
     case Need::faces:
       return "a contact of a face";
     case Need::standstill:

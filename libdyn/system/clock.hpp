@@ -4,16 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "libbase/structs/instant.hpp"
+
 namespace whirl::inline dyn {
-
-/// When: a phase within a revolution, and which revolution that is. Only loads that do not repeat
-/// with the revolution ask for the latter.
-struct Instant {
-  double phase = 0.0;  ///< [rad]
-  long revolution = 0;
-
-  Instant(double at_phase, long in_revolution = 0) : phase(at_phase), revolution(in_revolution) {}
-};
 
 /// A rotor of constant speed. A revolution is that of the shaft; without spin it is one second, so
 /// that motions of a rotor that stands have a section, too.

@@ -66,7 +66,7 @@ struct ForceSamples {
   static constexpr int ports = P;
   using D = Dual<2 * P>;
 
-  Push<D> push_at(const ReducedContact& c, double phase, const Periodic::Instant& at) const {
+  Push<D> push_at(const ReducedContact& c, const Instant& when, const Periodic::Instant& at) const {
     GapMotion<D> motion;
     for (int i = 0; i < 2; ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -75,7 +75,7 @@ struct ForceSamples {
       motion.v[k] = D::variable(at.rate(P - 2 + i), P + P - 2 + i);  // P = 4: where friction acts
     }
     const auto gap = std::visit(
-        [&](const auto& geometry) { return geometry.gap(c.space(), phase, motion); }, c.geometry);
+        [&](const auto& geometry) { return geometry.gap(c.space(), when, motion); }, c.geometry);
     return push_of<D>(gap, c.law);
   }
   std::array<D, P> force(const ReducedContact& c, const Push<D>& p, double sign) const {
@@ -109,10 +109,10 @@ struct SlopeSamples {
   const SlopedContact& sloped;
   double faster;  ///< derivative of the rate of the phase over it: rates of a series go with it
 
-  Push<D> push_at(const ReducedContact&, double phase, const Periodic::Instant& at) const {
+  Push<D> push_at(const ReducedContact&, const Instant& when, const Periodic::Instant& at) const {
     const auto rate = [&](int i) { return D(at.rate(i), D::Slopes(faster * at.rate(i))); };
     const GapMotion<D> motion{{at.x(0), at.x(1)}, {rate(0), rate(1)}, {rate(P - 2), rate(P - 1)}};
-    return push_of<D>(sloped.gap(phase, motion), sloped.law);
+    return push_of<D>(sloped.gap(when, motion), sloped.law);
   }
   std::array<D, P> force(const ReducedContact& c, const Push<D>& p, double sign) const {
     return force_of<P>(c.friction, sloped.mu, sloped.tolerance, p, sign);

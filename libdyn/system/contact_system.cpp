@@ -20,18 +20,18 @@ ContactForces kinematics(const ReducedContact& c, const double* y, StateLayout l
   return kinematics(c, 0.0, y, layout);
 }
 
-ContactForces kinematics(const ReducedContact& c, double phase, const double* y,
+ContactForces kinematics(const ReducedContact& c, const Instant& at, const double* y,
                          StateLayout layout) {
   const auto eta = layout.eta(y), rate = layout.rate(y);
   const Vec2 d = c.U * eta - c.offset, w = c.U * rate, v = c.rubs_apart() ? Vec2(c.V * rate) : w;
-  return kinematics(c, phase, {{d(0), d(1)}, {w(0), w(1)}, {v(0), v(1)}});
+  return kinematics(c, at, {{d(0), d(1)}, {w(0), w(1)}, {v(0), v(1)}});
 }
 
 // Flat: a call for each of geometry and law takes as long as what they compute.
-[[gnu::flatten]] ContactForces kinematics(const ReducedContact& c, double phase,
+[[gnu::flatten]] ContactForces kinematics(const ReducedContact& c, const Instant& at,
                                           const GapMotion<double>& motion) {
   const ContactGap<double> gap = std::visit(
-      [&](const auto& geometry) { return geometry.gap(c.space(), phase, motion); }, c.geometry);
+      [&](const auto& geometry) { return geometry.gap(c.space(), at, motion); }, c.geometry);
   ContactForces f{.n = {gap.n[0], gap.n[1]},
                   .r = gap.r,
                   .depth = gap.depth,
@@ -112,7 +112,7 @@ void ContactSystem::forces(const Instant& at, const double* y, const ContactStat
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     out[i] = {};
     if (contacts_[i].turns() && states[i].touch == Touch::apart) continue;  // most of many
-    out[i] = kinematics(contacts_[i], at.phase, y, layout());
+    out[i] = kinematics(contacts_[i], at, y, layout());
     if (leads(states, i)) {
       sticking.push_back(static_cast<int>(i));
     } else if (states[i].touch == Touch::sliding) {
@@ -190,7 +190,7 @@ void ContactSystem::acceleration(const Instant& at, const double* y, const Conta
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (states[i].touch != Touch::sliding) continue;
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, at.phase, y, n);
+    const ContactForces f = kinematics(c, at, y, n);
     push(c, f, sliding_friction(c, states[i], f), result);
   }
 }
@@ -200,7 +200,7 @@ void ContactSystem::acceleration(const Instant& at, const double* y, double* a) 
   Eigen::Map<Vec> result(a, n);
   smooth_acceleration(at, y, a);
   for (const ReducedContact& c : contacts_) {
-    const ContactForces f = kinematics(c, at.phase, y, n);
+    const ContactForces f = kinematics(c, at, y, n);
     if (f.depth <= 0.0 || f.normal <= 0.0) continue;
     const ContactState state{Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
     push(c, f, sliding_friction(c, state, f), result);
@@ -229,7 +229,7 @@ ContactStates ContactSystem::classify(const Instant& at, const double* y) const 
   std::vector<int> at_rest;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, at.phase, y, coordinates());
+    const ContactForces f = kinematics(c, at, y, coordinates());
     if (f.depth <= 0.0) continue;
     if (f.normal <= 0.0) {
       states[i].touch = Touch::receding;

@@ -61,7 +61,7 @@ struct ReducedContact {
 
   /// Whether friction acts elsewhere than the normal force.
   bool rubs_apart() const { return V.cols() > 0; }
-  /// Whether it is one of many places that turn with the rotor, most of which are apart.
+  /// Whether it is one of many places that turn, some of which are apart.
   bool turns() const { return whirl::turns(geometry); }
   ContactSpace space() const { return {clearance, rim_speed}; }
 };
@@ -198,14 +198,14 @@ class ContactSystem {
 double distance(const ContactSystem& system, const Vec& a, const Vec& b);
 
 /// Kinematics and normal force of one contact; friction is left zero.
-ContactForces kinematics(const ReducedContact& contact, double phase, const double* y,
+ContactForces kinematics(const ReducedContact& contact, const Instant& at, const double* y,
                          StateLayout layout);
 
-/// The same of a contact that does not turn and so does not ask for the phase.
+/// The same of a contact that does not turn and so does not ask when it is.
 ContactForces kinematics(const ReducedContact& contact, const double* y, StateLayout layout);
 
 /// The same from the motion of the gap.
-ContactForces kinematics(const ReducedContact& contact, double phase,
+ContactForces kinematics(const ReducedContact& contact, const Instant& at,
                          const GapMotion<double>& motion);
 
 /// How far beyond its surface a contact is, of order one; above zero in touch.
@@ -219,9 +219,8 @@ std::optional<Polynomial> beyond_surface(const ReducedContact& contact, const Pa
 /// Rows of the motion that closes a contact, times its arm [m], over the coordinates of a system.
 PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs);
 
-/// Speed of `at` less that of `against`, over the speed of the first shaft: two surfaces that turn
-/// alike rub without slip.
-double slip_ratio(const Contact& contact, const Assembler& assembler);
+/// How fast both parts of a contact turn: two surfaces that turn alike rub without slip.
+PartSpeeds part_speeds(const Contact& contact, const Assembler& assembler, double Omega);
 
 /// Takes what the force -N n - T t of a contact adds to the accelerations from them.
 void push(const ReducedContact& contact, const ContactForces& f, double T, Eigen::Ref<Vec> a);

@@ -50,9 +50,10 @@ PlaneRows relative_rows(Closing closing, const DofMap& dofs, const Point& at,
 
 /// Speed of the surface of `at` past that of `against` in the slip; what turns has its own in the
 /// gap's motion.
-/// @param Omega  speed of `at` less that of `against` [rad/s]
-double rim_speed_of(const AnyGeometry& geometry, double Omega, const Friction& friction) {
-  return turns(geometry) ? 0.0 : Omega * rim_radius_of(geometry).value_or(friction.radius);
+double rim_speed_of(const AnyGeometry& geometry, const PartSpeeds& speeds,
+                    const Friction& friction) {
+  const double past = (turns(geometry) ? 0.0 : speeds.at) - speeds.against;
+  return past * speeds.Omega * rim_radius_of(geometry).value_or(friction.radius);
 }
 
 /// A law with what follows from the operation: how much friction bends a blade.
@@ -71,10 +72,10 @@ PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const
                                           assembler.point(contact.against));
 }
 
-double slip_ratio(const Contact& contact, const Assembler& assembler) {
+PartSpeeds part_speeds(const Contact& contact, const Assembler& assembler, double Omega) {
   // what touches is a rotor whether it says that it spins or not
-  return assembler.shaft_ratio(assembler.point(contact.at)) -
-         assembler.spin_ratio(assembler.point(contact.against));
+  return {Omega, assembler.shaft_ratio(assembler.point(contact.at)),
+          assembler.spin_ratio(assembler.point(contact.against))};
 }
 
 /// What the equations of a reduced rotor are made with.
@@ -129,13 +130,13 @@ void ContactSystem::add_loads(const Reduction& by) {
 void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner) {
   const AnyGeometry geometry = geometry_of(c);
   assert(may_stick(geometry) || !c.friction.is_exact());
-  const double speed = slip_ratio(c, by.assembler) * Omega();
+  const PartSpeeds speeds = part_speeds(c, by.assembler, Omega());
   ReducedContact r{.name = c.name,
                    .offset = c.offset,
                    .clearance = c.clearance,
-                   .rim_speed = rim_speed_of(geometry, speed, c.friction),
+                   .rim_speed = rim_speed_of(geometry, speeds, c.friction),
                    .friction = c.friction,
-                   .law = law_at(Omega(), c.law, c.friction),
+                   .law = law_at(speeds.at * Omega(), c.law, c.friction),
                    .geometry = geometry,
                    .owner = owner};
   r.U = closing_rows(c, by.assembler, by.reduced.dofs) * by.reduced.Phi;
@@ -147,7 +148,7 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
     r.B_t = by.mass.solve(r.V.transpose());
   }
   for (int i = 0; i < places_of(geometry); ++i) {
-    r.geometry = place_of(geometry, i, Omega());
+    r.geometry = place_of(geometry, i, speeds);
     r.place = i;
     contacts_.push_back(r);
   }

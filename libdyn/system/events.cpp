@@ -35,11 +35,11 @@ const Interpolation& interpolation() {
   return table;
 }
 
-/// Whether a rotor may move by the clearance of places that turn with it: none can touch before.
+/// Whether a rotor may move so far that a place that turns can touch.
 bool may_reach(const ReducedContact& place, const Step& step) {
   PlaneRows u = place.U * step.q;
   u.col(0) -= place.offset;
-  return u.colwise().norm().sum() >= (1.0 - 1e-9) * place.clearance;
+  return u.colwise().norm().sum() >= (1.0 - 1e-9) * slack_of(place.geometry, place.clearance);
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ double EventWatcher::value(const Event& event, const Instant& at, const double* 
     return stick_margin(event.contact, system_.hold(at, y, states, event.contact));
   }
   const auto i = static_cast<std::size_t>(event.contact);
-  return value(event, kinematics(system_.contacts()[i], at.phase, y, system_.layout()), states[i]);
+  return value(event, kinematics(system_.contacts()[i], at, y, system_.layout()), states[i]);
 }
 
 double EventWatcher::stick_margin(int contact, const Hold& hold) const {
@@ -182,7 +182,7 @@ void EventWatcher::enter_touch(int contact, const Instant& at, const double* y,
     states[i] = states[j];
     return;
   }
-  const ContactForces f = kinematics(c, at.phase, y, system_.layout());
+  const ContactForces f = kinematics(c, at, y, system_.layout());
   states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
   const bool is_at_rest = std::abs(f.slip) <= 1e-12 * speed_scale_[i];
   if (c.friction.is_exact() && is_at_rest) {
@@ -223,7 +223,7 @@ void EventWatcher::apply(const Event& event, const Instant& at, const double* y,
       states[i] = {Touch::apart, 1.0};
       break;
     case EventKind::release:
-      if (is_continuous(c.law) || kinematics(c, at.phase, y, system_.layout()).depth <= 0.0) {
+      if (is_continuous(c.law) || kinematics(c, at, y, system_.layout()).depth <= 0.0) {
         surface = bit(EventKind::touch);
         states[i] = {Touch::apart, 1.0};
         break;

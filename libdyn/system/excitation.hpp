@@ -14,12 +14,7 @@ struct ReducedExcitation {
   Vec cosine, sine;        ///< accelerations of the coordinates
 
   bool is_zero() const { return cosine.isZero(0.0) && sine.isZero(0.0); }
-  /// alpha at the start of a revolution, 0 to 2 pi: to the last digit, however many there were.
-  double start_angle(long revolution) const;
-  double angle(const Instant& at) const {
-    if (ratio == 1.0) return at.phase;
-    return start_angle(at.revolution) + ratio * at.phase;
-  }
+  double angle(const Instant& at) const { return ratio == 1.0 ? at.phase : angle_at(ratio, at); }
 };
 
 }  // namespace whirl::inline dyn

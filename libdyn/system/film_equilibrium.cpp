@@ -22,15 +22,20 @@ struct Ports {
   HeldRotor held;  ///< by displacements of journals
 };
 
+/// Two places that a bearing holds together.
+struct Held {
+  Station at, against;
+};
+
 /// Rows of the displacements of the journals from their bearings.
-Sparse journal_rows(const std::vector<OilFilm>& films, const Assembler& assembler,
+Sparse journal_rows(const std::vector<Held>& bearings, const Assembler& assembler,
                     const DofMap& dofs) {
   std::vector<Triplet> entries;
   int row = 0;
-  for (const OilFilm& film : films) {
+  for (const Held& bearing : bearings) {
     for (const Component component : {X, Y}) {
-      const Vec of = dofs.row(assembler.point(film.at), component) -
-                     dofs.row(assembler.point(film.against), component);
+      const Vec of = dofs.row(assembler.point(bearing.at), component) -
+                     dofs.row(assembler.point(bearing.against), component);
       for (int j = 0; j < of.size(); ++j) {
         if (of(j) != 0.0) entries.emplace_back(row, j, of(j));
       }
@@ -68,9 +73,9 @@ Sparse held_matrix(const Sparse& K, const Sparse& U, double s) {
   return held;
 }
 
-Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, double Omega) {
+Ports ports_of(const std::vector<Held>& bearings, const Assembler& assembler, double Omega) {
   Ports p{.system = assembler.uncondensed(Omega, 0.0), .held = {}};
-  const Sparse all = journal_rows(films, assembler, p.system.dofs);
+  const Sparse all = journal_rows(bearings, assembler, p.system.dofs);
   p.held.ports = independent_rows(Mat(all));  // two films may be at one station
   const Sparse U = chosen_rows(all, p.held.ports.chosen);
   const Eigen::Index n = p.system.size(), ports = U.rows();
@@ -80,8 +85,8 @@ Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, do
   const Sparse clamped = K + s * Sparse(U.transpose() * U);
   if (!is_supported(symmetric_part(clamped))) {
     throw ModelError({}, "",
-                     "the rotor or a body is free to move, even where oil films hold the journals: "
-                     "add a [[bearing]] or a [[link]] that holds it");
+                     "the rotor or a body is free to move, even where oil films and rolling bearings "
+                     "hold the journals: add a [[bearing]] or a [[link]] that holds it");
   }
   const SparseLu lu(held_matrix(K, U, s));
   if (!lu.is_regular()) throw NumericalError("the stiffness is singular at this speed");
@@ -102,11 +107,13 @@ struct FilmEquilibrium::State {
   Assembler assembler;
   bool is_load_steady;  ///< the static load is the same at all speeds
   std::vector<OilFilm> films;
+  std::vector<Contact> rolling;  ///< bearings
+  std::vector<Held> held;        ///< both, an element of a rolling bearing each
   std::mutex mutex{};
   std::shared_ptr<const Ports> ports{};  ///< of the last speed, if they depend on that
   std::shared_ptr<const RotorOnFilms> last{};
   struct Known {
-    std::vector<BearingCoefficients> films;
+    std::vector<BearingCoefficients> bearings;
     std::exception_ptr failure;  ///< why there are none
   };
   std::map<double, Known> known{};  ///< by speed [rad/s]
@@ -116,36 +123,60 @@ struct FilmEquilibrium::State {
     for (const OilFilm& film : model.films) {
       if (film.is_linearized) films.push_back(film);
     }
+    for (const OilFilm& film : films) held.push_back({film.at, film.against});
+    for (const Contact& contact : model.contacts) {
+      if (!is_rolling_bearing(contact)) continue;
+      rolling.push_back(contact);
+      const auto elements = static_cast<std::size_t>(places_of(contact.geometry));
+      held.insert(held.end(), elements, {contact.at, contact.against});
+    }
   }
   std::shared_ptr<const RotorOnFilms> found(double Omega);
 };
 
 std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) {
   if (!ports || assembler.depends_on_speed() || !is_load_steady) {
-    ports = std::make_shared<const Ports>(ports_of(films, assembler, Omega));
+    ports = std::make_shared<const Ports>(ports_of(held, assembler, Omega));
   }
   std::vector<FilmAtSpeed> at_this_speed;
   for (const OilFilm& film : films) {
     at_this_speed.push_back(at_speed(film, Omega, drag_ratio(film, assembler)));
   }
-  const auto place = PortBalance(ports->held, std::move(at_this_speed)).find();
+  std::vector<ReducedContact> elements;
+  for (const Contact& bearing : rolling) {
+    for (ReducedContact& e : elements_of(bearing, part_speeds(bearing, assembler, Omega))) {
+      elements.push_back(std::move(e));
+    }
+  }
+  const auto place =
+      PortBalance(ports->held, std::move(at_this_speed), std::move(elements)).find();
   if (!place) throw NumericalError(not_found_on_films(Omega));
   RotorOnFilms rotor{.Omega = Omega,
                      .system = ports->system,
                      .q = ports->held.rest + ports->held.shapes * place->w,
                      .load = static_load(assembler, Omega)};
   rotor.system.Omega = Omega;
+  const auto carry = [&](const auto& bearing, const Vec2& load) {
+    for (const int component : {X, Y}) {
+      const int at = rotor.system.dofs.full_index(assembler.point(bearing.at), component);
+      const int against = rotor.system.dofs.full_index(assembler.point(bearing.against), component);
+      if (at >= 0) rotor.load(at) -= load(component);
+      if (against >= 0) rotor.load(against) += load(component);
+    }
+  };
   for (std::size_t i = 0; i < films.size(); ++i) {
     rotor.films.push_back(
         running_film(films[i], Omega, place->journals[i], drag_ratio(films[i], assembler)));
-    for (const int component : {X, Y}) {
-      const double force = -rotor.films.back().load(component);
-      const int at = rotor.system.dofs.full_index(assembler.point(films[i].at), component);
-      const int against =
-          rotor.system.dofs.full_index(assembler.point(films[i].against), component);
-      if (at >= 0) rotor.load(at) += force;
-      if (against >= 0) rotor.load(against) -= force;
-    }
+    carry(films[i], rotor.films.back().load);
+  }
+  std::size_t port = films.size();
+  for (const Contact& bearing : rolling) {
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(port);
+    const Vec2 u = ports->held.ports.of.middleRows<2>(row) * place->w;
+    rotor.rolling.push_back(
+        running_bearing(bearing, u, part_speeds(bearing, assembler, Omega)));
+    carry(bearing, rotor.rolling.back().load);
+    port += static_cast<std::size_t>(places_of(bearing.geometry));
   }
   return std::make_shared<const RotorOnFilms>(std::move(rotor));
 }
@@ -176,10 +207,13 @@ const std::vector<BearingCoefficients>& FilmEquilibrium::coefficients(double Ome
   if (known.failure) std::rethrow_exception(known.failure);
   if (is_new) {
     for (const RunningFilm& film : state_->last->films) {
-      known.films.push_back({.K = film.stiffness, .C = film.damping});
+      known.bearings.push_back({.K = film.stiffness, .C = film.damping});
+    }
+    for (const RunningBearing& bearing : state_->last->rolling) {
+      known.bearings.push_back({.K = bearing.stiffness, .C = Mat2::Zero()});
     }
   }
-  return known.films;
+  return known.bearings;
 }
 
 bool has_linear_films(const Model& model) {
@@ -187,23 +221,33 @@ bool has_linear_films(const Model& model) {
                      [](const OilFilm& film) { return film.is_linearized; });
 }
 
+bool has_working_point(const Model& model) {
+  return has_linear_films(model) ||
+         std::any_of(model.contacts.begin(), model.contacts.end(), is_rolling_bearing);
+}
+
 Structure linear_structure(const Model& model) {
   Structure structure = model.structure;
-  if (!has_linear_films(model)) return structure;
+  if (!has_working_point(model)) return structure;
   const auto equilibrium = std::make_shared<const FilmEquilibrium>(model);
-  for (const OilFilm& film : model.films) {
-    if (!film.is_linearized) continue;
+  const auto add = [&](std::string_view kind, const auto& bearing) {
     const std::size_t number = structure.linearized.size();
     const auto at = [equilibrium, number](double Omega, double /*omega*/) {
       return equilibrium->coefficients(Omega)[number];
     };
-    structure.linearized.push_back({film.name, film.at, film.against, at});
+    structure.linearized.push_back({bearing.name, bearing.at, bearing.against, at, kind});
+  };
+  for (const OilFilm& film : model.films) {
+    if (film.is_linearized) add("oil film", film);
+  }
+  for (const Contact& contact : model.contacts) {
+    if (is_rolling_bearing(contact)) add("rolling bearing", contact);
   }
   return structure;
 }
 
 System linear_system(const Model& model, const Scene& scene) {
-  if (!has_linear_films(model)) return scene.system;
+  if (!has_working_point(model)) return scene.system;
   return Assembler(linear_structure(model)).at(model.speed);
 }
 

@@ -51,18 +51,20 @@ double frequency_ratio(const Structure& structure, const Excitation& load, doubl
   return ratio;
 }
 
-double ReducedExcitation::start_angle(long revolution) const {
-  const auto r = static_cast<double>(revolution);
-  const double turns = ratio * r, rest = std::fma(ratio, r, -turns);
-  return 2.0 * std::numbers::pi * (turns - std::floor(turns) + rest);
-}
-
 long ContactSystem::repeats_after() const {
   long together = 1;
   for (const ReducedExcitation& o : excitations_) {
     const long q = denominator_of(o.ratio, o.order > 0.0 ? most_repeats : most_chance);
     if (q == 0) return 0;
     together = std::lcm(together, q);
+  }
+  for (const ReducedContact& c : contacts_) {
+    if (c.place > 0) continue;  // as the first
+    for (const double ratio : repeating_ratios_of(c.geometry)) {
+      const long q = denominator_of(ratio, most_repeats);
+      if (q == 0) return 0;
+      together = std::lcm(together, q);
+    }
   }
   return together <= most_repeats ? together : 0;
 }

@@ -33,7 +33,7 @@ ModelFacts model_facts(const Model& model, const Assembler& assembler) {
                    .nodes = static_cast<int>(assembler.mesh().nodes()),
                    .dofs = assembler.dofs().size(),
                    .condensed_dofs = assembler.at(model.speed).dofs.condensed,
-                   .contacts = static_cast<long>(model.contacts.size()),
+                   .contacts = std::ssize(stator_contacts(model.contacts)),
                    .polar_inertia = rotor.Ip};
   if (!s.shaft.empty()) {
     facts.center_of_mass = rotor.center_of_mass;

@@ -8,9 +8,8 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/dense.hpp"
-#include "libbase/numerics/dual.hpp"
 #include "libbase/numerics/newton.hpp"
-#include "libcontact/dual_functions.hpp"
+#include "libdyn/system/running_bearing.hpp"
 
 namespace whirl::inline dyn {
 
@@ -18,29 +17,15 @@ namespace {
 
 constexpr double dependent = 1e-9;  ///< of a row, what the rows before it leave of it
 
-struct RestingPush {
-  Vec2 force;  ///< on the rotor [N]
-  Mat2 by_u;   ///< [N/m]
-};
-
-/// The normal force of a contact at rest, with its slopes.
-/// @param d  from the middle of its clearance
-RestingPush resting_push(const ReducedContact& c, const Vec2& d) {
-  using D = Dual<2>;
-  RestingPush push{Vec2::Zero(), Mat2::Zero()};
-  if (!(kinematics(c, 0.0, {{d(0), d(1)}, {0.0, 0.0}, {0.0, 0.0}}).depth > 0.0)) return push;
-  const GapMotion<D> motion{
-      {D::variable(d(0), 0), D::variable(d(1), 1)}, {D(0.0), D(0.0)}, {D(0.0), D(0.0)}};
-  const auto gap =
-      std::visit([&](const auto& g) { return g.gap(c.space(), 0.0, motion); }, c.geometry);
-  const D normal =
-      std::visit([&](const auto& law) { return D(law.normal(gap.depth, gap.rate)); }, c.law);
-  for (const int i : {0, 1}) {
-    const D force = -normal * gap.n[static_cast<std::size_t>(i)];
-    push.force(i) = force.value;
-    push.by_u.row(i) = force.slopes;
-  }
-  return push;
+/// About where the inner ring of a bearing is under a load: where the first element would be as deep
+/// as all of them together carry, about a quarter of them.
+Vec2 place_on_elements(const ReducedContact& element, const Vec2& load) {
+  const geometry::RollingElements& row = *rolling_elements(element.geometry);
+  if (!(load.norm() > 0.0)) return element.offset;
+  const double most = 4.37 * load.norm() / row.elements;  // Stribeck's number, of an element
+  double depth = 1e-9;
+  while (normal_force(element.law, depth, 0.0) < most && depth < 1.0) depth *= 1.25;
+  return element.offset + load.normalized() * std::max(depth + row.play, 0.0);
 }
 
 }  // namespace
@@ -134,14 +119,22 @@ std::optional<PortBalance::Place> PortBalance::find(const Vec& w) const {
   return x ? std::optional(place(*x)) : std::nullopt;
 }
 
-/// Where every film alone carries the load that it has with all journals in the middle.
+/// Where every film and every rolling bearing alone carries the load that it has with all journals
+/// in the middle.
 std::optional<Vec> PortBalance::shared() const {
   Vec x = Vec::Zero(load_.size());
   for (std::size_t k = 0; k < rotor_.ports.chosen.size(); ++k) {
-    const auto own = static_cast<std::size_t>(rotor_.ports.chosen[k]);
-    if (own / 2 >= films_.size() || films_[own / 2].spin == 0.0) continue;  // it carries nothing
-    const auto P = ports_.middleRows<2>(2 * static_cast<Eigen::Index>(own / 2));
-    const auto u = place_under(films_[own / 2], -(P * load_));
+    const auto own = static_cast<std::size_t>(rotor_.ports.chosen[k]), port = own / 2;
+    const auto P = ports_.middleRows<2>(2 * static_cast<Eigen::Index>(port));
+    std::optional<Vec2> u;
+    if (port >= films_.size()) {
+      const ReducedContact& contact = contacts_[port - films_.size()];
+      if (!rolling_elements(contact.geometry)) continue;
+      u = place_on_elements(contact, -(P * load_));
+    } else {
+      if (films_[port].spin == 0.0) continue;  // it carries nothing
+      u = place_under(films_[port], -(P * load_));
+    }
     if (!u) return std::nullopt;
     const auto at = static_cast<Eigen::Index>(k);
     x(at) = (*u)(static_cast<Eigen::Index>(own % 2)) / scale_(at);
@@ -152,7 +145,11 @@ std::optional<Vec> PortBalance::shared() const {
 /// Where all together carry a share of the load, from a place nearby.
 std::optional<Vec> PortBalance::solve(const Vec& from, double share) const {
   At at = look(from, share);
-  const auto step = [](const At& here) { return newton_step(here.J, here.r); };
+  // a ball that carries alone lets the rotor move across it: the shortest step leaves it there
+  const auto step = [](const At& here) -> std::optional<Vec> {
+    if (auto found = newton_step(here.J, here.r)) return found;
+    return least_squares(here.J, here.r);
+  };
   const auto moved = [&](const At& here, const Vec& dx) { return look(here.x - dx, share); };
   const NewtonSearch search = newton(
       at, step, moved, {.most_steps = 60, .accurate = 1e-12, .most_halvings = 20, .worse = 1.0});
@@ -199,7 +196,7 @@ PortBalance::At PortBalance::look(const Vec& x, double share) const {
 }
 
 std::string not_found_on_films(double Omega) {
-  return fmt::format("the equilibrium of the rotor on its oil films was not found at {:.6g} rpm{}",
+  return fmt::format("the equilibrium of the rotor on its oil films or rolling bearings was not found at {:.6g} rpm{}",
                      Omega / rpm, Omega == 0.0 ? ": without speed a film carries nothing" : "");
 }
 

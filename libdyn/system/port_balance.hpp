@@ -32,8 +32,8 @@ struct HeldRotor {
 ///   R + K w = sum_i P_i^T F_i(P_i w)
 ///
 /// All other forces on the rotor are linear and stand in R and K, so that stiff shafts cost no
-/// digits. Newton's method with exact slopes starts where each film alone carries its share of the
-/// load; where that leads nowhere, the load is put on little by little.
+/// digits. Newton's method with exact slopes starts where each film and each rolling bearing alone
+/// carries its share of the load; where that leads nowhere, the load is put on little by little.
 class PortBalance {
  public:
   /// @param rotor     must live as long as the balance
@@ -71,7 +71,7 @@ class PortBalance {
   double size_ = 1.0;
 };
 
-/// Why a rotor is nowhere at rest on its films at a speed [rad/s], in words.
+/// Why a rotor is nowhere at rest on its films or rolling bearings at a speed [rad/s], in words.
 std::string not_found_on_films(double Omega);
 
 }  // namespace whirl::inline dyn

@@ -9,7 +9,7 @@ namespace whirl::inline dyn {
 namespace {
 
 /// The gap over the motion of its ports: (u, of friction) and their rates as variables 0 to 7.
-ContactGap<Dual<8>> gap_of(const ReducedContact& c, double phase, const Vec& y,
+ContactGap<Dual<8>> gap_of(const ReducedContact& c, const Instant& at, const Vec& y,
                            StateLayout layout) {
   const auto rate = layout.rate(y);
   const Vec2 d = c.U * layout.eta(y) - c.offset, w = c.U * rate;
@@ -21,7 +21,7 @@ ContactGap<Dual<8>> gap_of(const ReducedContact& c, double phase, const Vec& y,
     motion.w[k] = Dual<8>::variable(w(i), 4 + i);
     motion.v[k] = Dual<8>::variable(v(i), 6 + i);
   }
-  return std::visit([&](const auto& g) { return g.gap(c.space(), phase, motion); }, c.geometry);
+  return std::visit([&](const auto& g) { return g.gap(c.space(), at, motion); }, c.geometry);
 }
 
 /// Slopes over the ports as a gradient over the state.
@@ -51,7 +51,7 @@ std::optional<Saltation> saltation(const ContactSystem& system, const Event& eve
   if (change.isZero(0.0)) return std::nullopt;
 
   const ReducedContact& contact = system.contacts()[static_cast<std::size_t>(event.contact)];
-  const ContactGap<Dual<8>> gap = gap_of(contact, at.phase, y, layout);
+  const ContactGap<Dual<8>> gap = gap_of(contact, at, y, layout);
   const bool touches = event.kind == EventKind::touch;
   Saltation s;
   s.gradient = gradient_of(contact, touches ? gap.depth.slopes : gap.slip.slopes, layout);

@@ -1,5 +1,6 @@
 #include "libdyn/system/sloped_contact.hpp"
 
+#include <numbers>
 #include <tuple>
 #include <type_traits>
 
@@ -42,23 +43,36 @@ Law<ByParameter> sloped_law(const Law<double>& law, const SlopeOf& slope_of) {
 
 }  // namespace
 
-ContactGap<ByParameter> SlopedContact::gap(double phase, GapMotion<ByParameter> m) const {
+ContactGap<ByParameter> SlopedContact::gap(const Instant& at, GapMotion<ByParameter> m) const {
   for (std::size_t i = 0; i < 2; ++i) m.d[i] = m.d[i] - offset[i];
   if (is_wall(contact.geometry)) {
     return with_wall(contact.geometry, ContactGap<ByParameter>{}, [&](const auto& w) {
       return gap_to_wall<std::remove_cvref_t<decltype(w)>>(m, wall, clearance, rim_speed);
     });
   }
+  // at a fixed phase, what changes the ratio of a speed turns what has it
+  const double whole = at.phase + 2.0 * std::numbers::pi * static_cast<double>(at.revolution);
+  const auto angle_of = [&](const ByParameter& of) {
+    return dual(angle_at(of.value, at), whole * of.slopes(0));
+  };
+  const ByParameter gone = angle_of(ratio);
+  if (rolling_elements(contact.geometry)) {
+    ContactGap<ByParameter> g = geometry::gap_to_element(m, gone + start, turning, play);
+    for (const Shape& s : shapes) {
+      geometry::add_shape(g, s.height, s.start + angle_of(s.ratio), s.speed, s.sharpness);
+    }
+    return g;
+  }
   if (const auto* blade = std::get_if<geometry::BladeRow>(&contact.geometry)) {
-    const Vec2 e = blade->axis(phase), along(-e(1), e(0));
+    const Vec2 e = blade->axis(at), along(-e(1), e(0));
     for (std::size_t i = 0; i < 2; ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      m.d[i].slopes += e(k) * tip.slopes;
-      m.w[i].slopes += along(k) * tip_speed.slopes;
+      m.d[i].slopes += e(k) * tip.slopes + along(k) * tip.value * gone.slopes;
+      m.w[i].slopes += along(k) * tip_speed.slopes - e(k) * tip_speed.value * gone.slopes;
     }
   }
   ContactGap<ByParameter> g =
-      std::visit([&](const auto& geometry) { return geometry.gap(contact.space(), phase, m); },
+      std::visit([&](const auto& geometry) { return geometry.gap(contact.space(), at, m); },
                  contact.geometry);
   g.depth.slopes -= clearance.slopes + tip.slopes;  // tips touch at clearance + tip
   g.slip.slopes += rim_speed.slopes;
@@ -92,8 +106,27 @@ SlopedContact sloped_contact(const ContactSystem& system, std::size_t i,
       [](const C& c) { return c.friction.tolerance > 0.0 ? 1.0 / c.friction.tolerance : 0.0; });
   to.tolerance = sharpness.value > 0.0 ? 1.0 / sharpness : ByParameter(0.0);
   to.tip = number([](const C& c) { return tip_radius_of(c.geometry); });
-  const auto Omega = [](const ContactSystem& s) { return s.Omega(); };
-  to.tip_speed = dual(system.Omega(), slopes.of(Omega)) * to.tip;
+  to.ratio = number([](const C& c) { return turning_ratio_of(c.geometry); });
+  const auto turning = [i](const ContactSystem& s) {
+    return turning_ratio_of(s.contacts()[i].geometry) * s.phase_rate();
+  };
+  to.turning = dual(turning(system), slopes.of(turning));
+  to.tip_speed = to.turning * to.tip;
+  if (const auto* row = rolling_elements(to.contact.geometry)) {
+    const auto of_row = [&](const auto& of) {
+      return number([&](const C& c) { return of(*rolling_elements(c.geometry)); });
+    };
+    to.play = of_row([](const auto& r) { return r.play; });
+    to.start = of_row([](const auto& r) { return r.angle; });
+    for (std::size_t k = 0; k < row->shapes.size(); ++k) {
+      const auto of_shape = [&](double geometry::RaceShape::*member) {
+        return of_row([=](const auto& r) { return r.shapes[k].*member; });
+      };
+      to.shapes.push_back({of_shape(&geometry::RaceShape::height), of_shape(&geometry::RaceShape::start),
+                           of_shape(&geometry::RaceShape::ratio), of_shape(&geometry::RaceShape::speed),
+                           of_shape(&geometry::RaceShape::sharpness)});
+    }
+  }
   to.turned_normal = slopes.of([i](const ContactSystem& s) -> Vec2 {
     return direction_of(s.contacts()[i].geometry).value_or(Vec2::Zero());
   });

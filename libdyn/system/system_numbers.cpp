@@ -1,6 +1,7 @@
 #include "libdyn/system/system_numbers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace whirl::inline dyn {
@@ -32,10 +33,25 @@ void add_law(const Law& law, std::vector<Vec>& blocks) {
   }
 }
 
-void add_contact(const ReducedContact& c, std::vector<Vec>& blocks) {
+void add_elements(const geometry::RollingElements& row, double phase_rate,
+                  std::vector<Vec>& blocks) {
+  blocks.push_back(numbers({row.play}));
+  blocks.push_back(numbers({std::cos(row.angle), std::sin(row.angle)}));
+  for (const geometry::RaceShape& s : row.shapes) {
+    for (const double value : {s.height, s.start, s.ratio * phase_rate, s.sharpness}) {
+      blocks.push_back(numbers({value}));
+    }
+  }
+}
+
+void add_contact(const ReducedContact& c, double phase_rate, std::vector<Vec>& blocks) {
   for (const Vec& block : {flat(c.U), flat(c.B), flat(c.V), flat(c.B_t)}) blocks.push_back(block);
   blocks.push_back(numbers({c.clearance, tip_radius_of(c.geometry), c.offset(0), c.offset(1)}));
   for (const double value : {c.rim_speed, c.friction.mu}) blocks.push_back(numbers({value}));
+  if (c.turns()) {
+    blocks.push_back(numbers({turning_ratio_of(c.geometry) * phase_rate}));
+    if (const auto* row = rolling_elements(c.geometry)) add_elements(*row, phase_rate, blocks);
+  }
   if (c.friction.tolerance > 0.0) blocks.push_back(numbers({1.0 / c.friction.tolerance}));
   if (const auto n = direction_of(c.geometry)) blocks.push_back(*n);
   if (is_wall(c.geometry)) {
@@ -65,7 +81,9 @@ std::vector<Vec> numbers_of(const ContactSystem& system) {
       blocks.push_back(block);
     }
   }
-  for (const ReducedContact& c : system.contacts()) add_contact(c, blocks);
+  for (const ReducedContact& c : system.contacts()) {
+    add_contact(c, system.phase_rate(), blocks);
+  }
   for (const ReducedFilm& film : system.films()) add_film(film, blocks);
   return blocks;
 }

@@ -30,6 +30,19 @@ std::vector<std::unique_ptr<BladeLanes<P>>> disks_of(const Pattern& pattern,
   return disks;
 }
 
+/// Tells what turns at a speed of its own that a lane begins a revolution.
+template <class P>
+HWY_ATTR void begin_turning(const std::vector<std::unique_ptr<BladeLanes<P>>>& disks,
+                            std::vector<ContactLanes<P>>& contacts, const ContactSystem& s,
+                            long revolution, int l) {
+  for (const auto& disk : disks) {
+    disk->begin_revolution(s.contacts()[disk->first], revolution, l);
+    for (size_t i = disk->first; i < disk->first + disk->count; ++i) {
+      if (contacts[i].shapes) contacts[i].shapes->begin_revolution(s.contacts()[i], revolution, l);
+    }
+  }
+}
+
 /// Coefficient k of the displacement of a disk, and what follows from it for its blades.
 template <class P>
 HWY_ATTR inline void extend(BladeLanes<P>& disk, const std::vector<ContactLanes<P>>& contacts,

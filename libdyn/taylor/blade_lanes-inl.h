@@ -1,4 +1,5 @@
-// What the blades of a contact share in all lanes: the motion of their disk as they see it.
+// What the places of a contact that turn share in all lanes: the motion of their disk as they see
+// it.
 
 #if defined(WHIRL_BLADE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIRL_BLADE_LANES_INL_H
@@ -8,6 +9,7 @@
 #endif
 
 #include "libdyn/system/contact_system.hpp"
+#include "libdyn/taylor/clock_lanes-inl.h"
 #include "libdyn/taylor/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,30 +22,38 @@ namespace HWY_NAMESPACE {
 ///   d = u + R (cos a e + sin a f),
 ///   d . d - (R + c)^2 = u . u + 2 R (cos a u . e + sin a u . f) - c (2 R + c)
 ///
-/// in which the large R^2 do not appear: a blade costs one line, and keeps its digits.
+/// in which the large R^2 do not appear: a blade costs one line, and keeps its digits. An element of
+/// a rolling bearing is a blade of infinite length, n . u = cos a u . e + sin a u . f.
 template <class P>
 struct BladeLanes {
   using Number = typename P::Number;
   size_t first = 0;  ///< of the blades among all contacts
   size_t count = 0;
 
-  P radius{1.0}, turns{1.0};       // R; 0: the rotor does not spin
+  P radius{1.0}, turns{1.0};       // R; speed over the rate of the phase
+  P begin{0.0};                    // angle at the start of the revolution
   P rate{1.0};                     // of the phase
   P clearance2{1.0}, within{1.0};  // c^2, c (2 R + c)
+  uint64_t tight = 0;              // lanes in which one may always touch
   P ux[P::most_terms], uy[P::most_terms], sine[P::most_terms], cosine[P::most_terms];
   P along[P::most_terms], across[P::most_terms], square[P::most_terms];
 
   HWY_ATTR void load(const ReducedContact& from, int l, Number rate_of_phase) {
-    const auto& row = std::get<geometry::BladeRow>(from.geometry);
-    const Number R = row.tip, c = from.clearance;
+    const Number R = tip_radius_of(from.geometry), c = from.clearance;
+    const Number slack = slack_of(from.geometry, from.clearance);
+    const uint64_t bit = uint64_t{1} << l;
+    tight = slack > Number(0.0) ? tight & ~bit : tight | bit;
     set_lane(radius, l, R);
-    set_lane(turns, l, row.sense);
+    set_lane(turns, l, turning_ratio_of(from.geometry));
     set_lane(rate, l, rate_of_phase);
-    set_lane(clearance2, l, c * c);
+    set_lane(clearance2, l, slack * slack);
     set_lane(within, l, c * (Number(2.0) * R + c));
   }
+  HWY_ATTR void begin_revolution(const ReducedContact& from, long revolution, int l) {
+    set_start_angle(begin, l, turning_ratio_of(from.geometry), revolution);
+  }
 
-  HWY_ATTR void start(const P& time) { sin_cos(turns * (rate * time), sine[0], cosine[0]); }
+  HWY_ATTR void start(const P& time) { sin_cos(fma(turns, rate * time, begin), sine[0], cosine[0]); }
 
   /// Coefficient k of all, from those of u, which stand in ux[k] and uy[k].
   HWY_ATTR void extend(int k) {

@@ -14,6 +14,21 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// start_angle() (libbase/structs/instant.hpp) into a lane.
+template <class P>
+HWY_ATTR void set_start_angle(P& to, int l, typename P::Number ratio, long revolution) {
+  using Number = typename P::Number;
+  if constexpr (P::is_double) {
+    const bool is_neighbor = carries_slopes<P> && l > 0;  // whose angle must not wrap
+    const double turned = 2.0 * P::pi * static_cast<double>(revolution);
+    set_lane(to, l, is_neighbor ? ratio * turned : start_angle(ratio, revolution));
+  } else {
+    const Number turns = ratio * Number(static_cast<double>(revolution));
+    const Number whole = Number(static_cast<double>(static_cast<int64_t>(turns)));
+    set_lane(to, l, Number(2.0) * P::pi * (turns - whole));
+  }
+}
+
 /// Clock (libdyn/system/clock.hpp) in lanes: the angle is the time times a rate. Other
 /// parts that know that the speed is constant are named in README.md.
 template <class P>

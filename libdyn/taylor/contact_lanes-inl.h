@@ -20,6 +20,7 @@
 #include "libdyn/taylor/law_lanes-inl.h"
 #include "libdyn/taylor/pattern.hpp"
 #include "libdyn/taylor/rub_lanes-inl.h"
+#include "libdyn/taylor/shape_lanes-inl.h"
 #include "libdyn/taylor/wall_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,7 +36,8 @@ inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
 ///
 /// Of a plane d is its normal, r is one, and s, else the square of the distance, is how far the
 /// rotor is beyond it. Of a wall d is the slope of the depth, r is one, and s is beyond zero where
-/// the rotor is beyond the wall.
+/// the rotor is beyond the wall. Of a rolling element d is its direction, which turns, r is one, and s
+/// is how far it is pressed.
 template <class P>
 struct ContactLanes {
   using Number = typename P::Number;
@@ -52,9 +54,10 @@ struct ContactLanes {
   std::vector<P> ux, uy;                              // per of_x, of_y
   std::vector<P> bx, by;                              // per pushed_by_x, pushed_by_y
   std::unique_ptr<RubLanes<P>> rub;                   // where friction acts elsewhere, or a normal
-  P plane_at{0.0};                                    // n . u of a plane
+  P plane_at{0.0};                                    // n . u of a plane; play of an element
   std::unique_ptr<WallLanes<P>> wall;                 // of a wall
-  const BladeLanes<P>* disk = nullptr;                // of a blade, what it shares with the others
+  const BladeLanes<P>* disk = nullptr;       // of what turns, what it shares with the others
+  std::unique_ptr<ShapeLanes<P>> shapes;     // of an element, where its races are not round
   P blade_cosine{1.0}, blade_sine{0.0}, excess{0.0};  // of its angle; d . d - clearance^2 at first
   uint64_t continuous = 0, damped = 0, exact = 0, smooth = 0;
 
@@ -92,12 +95,14 @@ struct ContactLanes {
         uy(of.of_y.size(), P(0.0)),
         bx(of.pushed_by_x.size(), P(0.0)),
         by(of.pushed_by_y.size(), P(0.0)),
-        rub(of.rubs_apart || of.has_normal() ? std::make_unique<RubLanes<P>>(of) : nullptr) {
+        rub(of.slips_apart() ? std::make_unique<RubLanes<P>>(of) : nullptr) {
 #ifndef NDEBUG  // a coefficient that is used before it is known makes no number
     for (P* of_all : {dx, dy, s, r, N, q, tau, slip, sine, cosine2, ax, ay, turn_rate}) {
       std::fill_n(of_all, P::most_terms, P(std::numeric_limits<double>::quiet_NaN()));
     }
 #endif
+    const auto* row = rolling_elements(of.geometry);
+    if (row && !row->shapes.empty()) shapes = std::make_unique<ShapeLanes<P>>(*row);
     if (of.is_wall) wall = std::make_unique<WallLanes<P>>(of.geometry, order + 3, has_slopes);
     if (!of.has_normal()) return;
     for (int k = 0; k < P::most_terms; ++k) dx[k] = dy[k] = r[k] = P(0.0);
@@ -123,6 +128,8 @@ struct ContactLanes {
   // contact_loading-inl.h
   HWY_ATTR void load_numbers(const ReducedContact& from, int l, double turn);
   HWY_ATTR void load_plane(const ReducedContact& from, const Vec2& n, int l, double turn);
+  HWY_ATTR void load_element(const ReducedContact& from, const geometry::RollingElements& element,
+                             int l, double turn);
   HWY_ATTR void load_wall(const ReducedContact& from, int l, double turn);
 
   HWY_ATTR void set_state(const ContactState& state, int l) {
@@ -181,7 +188,7 @@ struct ContactLanes {
 
   /// Coefficient 0 of displacement, distance squared, distance.
   HWY_ATTR inline void first_geometry(const P* x) {
-    if (disk) return blade_geometry(0, is_evaluated);
+    if (disk) return turning_geometry(0, is_evaluated);
     if (rows.is_plane) return plane_geometry(x, 0);
     if (wall) return wall_geometry(x, 0);
     P x0, y0;
@@ -199,7 +206,7 @@ struct ContactLanes {
 
   /// Coefficient k > 0 of the same.
   HWY_ATTR inline void geometry(const P* x, int k, bool with_distance) {
-    if (disk) return blade_geometry(k, with_distance);
+    if (disk) return turning_geometry(k, with_distance);
     if (rows.is_plane) return plane_geometry(x, k);
     if (wall) return wall_geometry(x, k);
     displacement(x, dx[k], dy[k]);
@@ -258,12 +265,19 @@ struct ContactLanes {
 
   /// Coefficient 0 of what s has beyond the surface.
   HWY_ATTR inline P beyond() const {
-    return disk ? excess : rows.has_normal() ? s[0] : s[0] - clearance2;
+    return rows.has_normal() ? s[0] : disk ? excess : s[0] - clearance2;
   }
 
-  /// The same of a blade, for any k, from what its disk does.
-  HWY_ATTR void blade_geometry(int k, bool with_distance) {
+  /// The same of a place that turns, for any k, from what its disk does.
+  HWY_ATTR void turning_geometry(int k, bool with_distance) {
     const P turned = fma(blade_cosine, disk->along[k], blade_sine * disk->across[k]);
+    if (rows.is_rolling) {
+      s[k] = k == 0 ? turned - plane_at : turned;
+      if (shapes) s[k] = s[k] + shapes->height(k);
+      dx[k] = fnma(disk->sine[k], blade_sine, disk->cosine[k] * blade_cosine);
+      dy[k] = fma(disk->cosine[k], blade_sine, disk->sine[k] * blade_cosine);
+      return;
+    }
     s[k] = fma(disk->radius + disk->radius, turned, disk->square[k]);
     if (k == 0) {
       excess = s[0] - disk->within;

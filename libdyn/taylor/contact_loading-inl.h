@@ -25,6 +25,7 @@ HWY_ATTR void ContactLanes<P>::load_numbers(const ReducedContact& from, int l, d
     set_lane(blade_cosine, l, blade->cosine);
     set_lane(blade_sine, l, blade->sine);
   }
+  if (const auto* element = rolling_elements(from.geometry)) load_element(from, *element, l, turn);
   set_lane(offset_x, l, from.offset(0));
   set_lane(offset_y, l, from.offset(1));
   set_lane(mu, l, f.mu);
@@ -33,7 +34,8 @@ HWY_ATTR void ContactLanes<P>::load_numbers(const ReducedContact& from, int l, d
   set_lane(force_scale, l, normal_force(from.law, from.clearance, 0.0));
   set_lane(slip_scale, l,
            std::max(std::abs(from.rim_speed), from.clearance * turn) * from.clearance);
-  set_lane(least_depth, l, is_analytic(from.law) ? -boundless : 1e-8 * from.clearance);
+  const double begins = whirl::least_depth(from.law) * from.clearance;
+  set_lane(least_depth, l, is_analytic(from.law) ? -boundless : begins);
   set_law(law, from.law, l);
   for (size_t i = 0; i < ux.size(); ++i) set_lane(ux[i], l, from.U(0, rows.of_x[i]));
   for (size_t i = 0; i < uy.size(); ++i) set_lane(uy[i], l, from.U(1, rows.of_y[i]));
@@ -57,6 +59,20 @@ HWY_ATTR void ContactLanes<P>::load_plane(const ReducedContact& from, const Vec2
   set_lane(clearance2, l, 1.0);
   set_lane(distance_scale, l, from.clearance);
   set_lane(slip_scale, l, std::max(std::abs(from.rim_speed), from.clearance * turn));
+}
+
+/// How far an element is pressed is compared with the clearance.
+template <class P>
+HWY_ATTR void ContactLanes<P>::load_element(const ReducedContact& from,
+                                            const geometry::RollingElements& element, int l,
+                                            double turn) {
+  set_lane(blade_cosine, l, std::cos(element.angle));
+  set_lane(blade_sine, l, std::sin(element.angle));
+  set_lane(plane_at, l, element.play);
+  set_lane(clearance, l, 1.0);
+  set_lane(clearance2, l, 1.0);
+  set_lane(distance_scale, l, from.clearance);
+  if (shapes) shapes->load(from, turn, l);
 }
 
 /// What a wall is beyond zero is compared with one.

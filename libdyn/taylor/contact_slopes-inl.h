@@ -64,6 +64,7 @@ struct ContactSlopes {
     has_H = c.rows.has_rate || c.rows.has_smooth_friction;
     if (c.rows.is_plane) return find_of_plane(c, N);
     if (c.wall) return find_of_wall(c, N);
+    if (c.rows.is_rolling) return find_of_element(c, N);
     P alpha[P::most_terms], beta[P::most_terms], work[P::most_terms], ex[P::most_terms],
         ey[P::most_terms];
     for (int k = 0; k <= N; ++k) work[k] = normal_by_depth[k] - c.q[k];
@@ -132,6 +133,33 @@ struct ContactSlopes {
     }
   }
 
+  /// J = N_d n n^T + N_v n n'^T, H = N_v n n^T with a normal n that turns.
+  HWY_ATTR void find_of_element(const ContactLanes<P>& c, int N) {
+    P ax[P::most_terms], ay[P::most_terms], vx[P::most_terms], vy[P::most_terms];
+    J.clear(N);
+    if (has_H) H.clear(N);
+    add_pressed(c, ax, ay, vx, vy, N);
+  }
+
+  /// Adds what all forces along a normal n that changes have:  J += N_d n n^T + N_v n n'^T,
+  /// H += N_v n n^T.
+  HWY_ATTR void add_pressed(const ContactLanes<P>& c, P* ax, P* ay, P* vx, P* vy, int N) {
+    const P nothing(0.0);
+    for (int k = 0; k <= N; ++k) {
+      normal_by_depth[k] = select(c.in_touch, normal_by_depth[k], nothing);
+      normal_by_rate[k] = select(c.in_touch, normal_by_rate[k], nothing);
+    }
+    multiply(normal_by_depth, c.dx, ax, N);
+    multiply(normal_by_depth, c.dy, ay, N);
+    J.add(ax, ay, c.dx, c.dy, N);
+    if (!c.rows.has_rate) return;
+    multiply(normal_by_rate, c.dx, ax, N);
+    multiply(normal_by_rate, c.dy, ay, N);
+    velocity(c, vx, vy, N);
+    J.add(ax, ay, vx, vy, N);
+    H.add(ax, ay, c.dx, c.dy, N);
+  }
+
   /// With the slope n of the depth:
   ///
   ///   J = N_d n n^T + N_v n n'^T + N dn/du,   H = N_v n n^T
@@ -141,23 +169,9 @@ struct ContactSlopes {
   ///   q d(phi) = chi (dn/du du x w + n x dw)
   HWY_ATTR void find_of_wall(const ContactLanes<P>& c, int N) {
     P ax[P::most_terms], ay[P::most_terms], vx[P::most_terms], vy[P::most_terms];
-    const P nothing(0.0);
     J.clear(N);
     if (has_H) H.clear(N);
-    for (int k = 0; k <= N; ++k) {
-      normal_by_depth[k] = select(c.in_touch, normal_by_depth[k], nothing);
-      normal_by_rate[k] = select(c.in_touch, normal_by_rate[k], nothing);
-    }
-    multiply(normal_by_depth, c.dx, ax, N);
-    multiply(normal_by_depth, c.dy, ay, N);
-    J.add(ax, ay, c.dx, c.dy, N);
-    if (c.rows.has_rate) {
-      multiply(normal_by_rate, c.dx, ax, N);
-      multiply(normal_by_rate, c.dy, ay, N);
-      velocity(c, vx, vy, N);
-      J.add(ax, ay, vx, vy, N);
-      H.add(ax, ay, c.dx, c.dy, N);
-    }
+    add_pressed(c, ax, ay, vx, vy, N);
     const auto by = [&](const std::vector<Recorded<P>>& of, size_t input)
                         HWY_ATTR { return c.wall->beyond.series(of[input]); };
     const auto &of_x = c.wall->slopes_of_nx, &of_y = c.wall->slopes_of_ny;

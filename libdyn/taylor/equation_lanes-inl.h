@@ -32,19 +32,12 @@ template <class P>
 HWY_ATTR void start_revolution(const ReducedExcitation& from, typename P::Number rate_of_phase,
                                long revolution, int l, OtherLoadLanes<P>& to) {
   using Number = typename P::Number;
-  if constexpr (P::is_double) {
-    const bool is_neighbor = carries_slopes<P> && l > 0;  // whose angle must not wrap
-    const double turned = 2.0 * P::pi * static_cast<double>(revolution);
-    set_lane(to.rate, l, from.ratio * rate_of_phase);
-    set_lane(to.start, l, is_neighbor ? from.ratio * turned : from.start_angle(revolution));
-  } else {
-    const Number ratio =
-        from.order > 0.0 ? Number(from.order) : Number(from.frequency) / rate_of_phase;
-    const Number turns = ratio * Number(static_cast<double>(revolution));
-    const Number whole = Number(static_cast<double>(static_cast<int64_t>(turns)));
-    set_lane(to.rate, l, ratio * rate_of_phase);
-    set_lane(to.start, l, Number(2.0) * P::pi * (turns - whole));
+  Number ratio = from.ratio;
+  if constexpr (!P::is_double) {
+    ratio = from.order > 0.0 ? Number(from.order) : Number(from.frequency) / rate_of_phase;
   }
+  set_lane(to.rate, l, ratio * rate_of_phase);
+  set_start_angle(to.start, l, ratio, revolution);
 }
 
 /// Adds coefficients times numbers to the sums of rows, column after column.

@@ -78,7 +78,7 @@ HWY_ATTR uint64_t EventFinder<P>::find(P& h) {
     if (c.disk) {
       if (i == c.disk->first) is_far = is_out_of_reach(*c.disk, h);
       if (is_far && !c.is_evaluated) continue;
-      for (int k = 0; k <= N + 2 && !c.is_evaluated; ++k) c.blade_geometry(k, false);
+      for (int k = 0; k <= N + 2 && !c.is_evaluated; ++k) c.turning_geometry(k, false);
     }
     // the distance: apart to touch; in touch to apart where the force vanishes with the depth;
     // beyond the circle without force to apart
@@ -103,10 +103,11 @@ HWY_ATTR uint64_t EventFinder<P>::find(P& h) {
   return fell;
 }
 
-/// Whether a disk stays within the clearance of its blades in all active lanes: a tip is never
-/// farther out than u . u = c^2 would let it be.
+/// Whether a disk stays within the clearance of its blades, or the slack of its elements, in all
+/// active lanes: a tip is never farther out than u . u = c^2 would let it be.
 template <class P>
 HWY_ATTR bool EventFinder<P>::is_out_of_reach(const BladeLanes<P>& disk, const P& h) const {
+  if ((disk.tight & m_.active) != 0) return false;
   P beyond[P::most_terms], until = h;
   std::copy(disk.square, disk.square + N + 3, beyond);
   beyond[0] = beyond[0] - disk.clearance2;

@@ -74,6 +74,9 @@ HWY_ATTR void MotionSeries<P>::find_of_any() {
   m_.equations.linear_is_flat ? m_.equations.template find_load<PlainOf<P>>(m_.clock, N + 1)
                               : m_.equations.template find_load<P>(m_.clock, N + 1);
   const bool any_sticks = m_.any_sticks();
+  for (ContactLanes<P>& c : m_.contacts) {
+    if (c.shapes) c.shapes->start(m_.clock.time);
+  }
   for (const auto& disk : m_.disks) {
     disk->start(m_.clock.time);
     extend(*disk, m_.contacts, m_.term(0), 0);

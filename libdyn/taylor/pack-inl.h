@@ -129,6 +129,7 @@ WHIRL_UNARY(sinh, hn::Sinh(typename Pack<L, B>::D(), a))
 WHIRL_UNARY(asinh, hn::Asinh(typename Pack<L, B>::D(), a))
 WHIRL_UNARY(tanh, hn::Tanh(typename Pack<L, B>::D(), a))
 WHIRL_UNARY(log, hn::Log(typename Pack<L, B>::D(), a))
+WHIRL_UNARY(exp, hn::Exp(typename Pack<L, B>::D(), a))
 WHIRL_BINARY(operator+, hn::Add(a, c))
 WHIRL_BINARY(operator-, hn::Sub(a, c))
 WHIRL_BINARY(operator*, hn::Mul(a, c))
@@ -285,6 +286,22 @@ HWY_ATTR inline Pack<L, B> rough_exp2(const Pack<L, B>& x) {
     result.v[b] = hn::Mul(p, hn::BitCast(d, power));
   }
   return result;
+}
+
+/// x^(1/9) of positive numbers: Newton's method from a guess to 1e-3, whose error goes with its
+/// square.
+template <class P>
+HWY_ATTR inline P ninth_root_of(const P& x, int steps) {
+  P y = rough_exp2(rough_log2(x) * P(1.0 / 9.0));
+  for (int i = 0; i < steps; ++i) {
+    const P y2 = y * y, y4 = y2 * y2, y8 = y4 * y4;
+    y = y - (y * y8 - x) / (P(9.0) * y8);
+  }
+  return y;
+}
+template <size_t L, int B>
+HWY_ATTR inline Pack<L, B> ninth_root(const Pack<L, B>& x) {
+  return ninth_root_of(x, 4);
 }
 
 /// Where lane i of a pack is in its memory [bytes].

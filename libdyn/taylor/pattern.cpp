@@ -94,9 +94,12 @@ void insert_friction(Pattern::ContactRows& rows, const ReducedContact& c, int n)
   }
 }
 
+template <class Geometry>
+constexpr bool lanes_turn =
+    std::same_as<Geometry, geometry::BladeRow> || std::same_as<Geometry, geometry::RollingElements>;
 template <class... Geometry>
-constexpr bool only_blade_rows_turn(std::type_identity<std::variant<Geometry...>>) {
-  return ((Geometry::turns == std::same_as<Geometry, geometry::BladeRow>)&&...);
+constexpr bool lanes_turn_all(std::type_identity<std::variant<Geometry...>>) {
+  return ((Geometry::turns == lanes_turn<Geometry>)&&...);
 }
 
 /// What all systems of a batch must have in common, of the first one.
@@ -113,10 +116,11 @@ Pattern begin_pattern(const ContactSystem& first) {
     p.contacts[c].rubs_apart = contact.rubs_apart();
     p.contacts[c].is_plane = direction_of(contact.geometry).has_value();
     p.contacts[c].is_wall = is_wall(contact.geometry);
+    p.contacts[c].is_rolling = rolling_elements(contact.geometry) != nullptr;
     if (!contact.turns()) continue;
     static_assert(
-        only_blade_rows_turn(std::type_identity<AnyGeometry>()),
-        "lanes keep what turns as rows of blades: blade_lanes-inl.h and contact_lanes-inl.h "
+        lanes_turn_all(std::type_identity<AnyGeometry>()),
+        "lanes keep what turns as blades or elements: blade_lanes-inl.h and contact_lanes-inl.h "
         "of libdyn/taylor and sloped_contact.cpp have to know of another geometry first");
     if (contact.place == 0) p.turning.push_back({c, 0});
     ++p.turning.back().count;
@@ -131,7 +135,7 @@ Pattern begin_pattern(const ContactSystem& first) {
 void require_alike(const Pattern::ContactRows& rows, const ReducedContact& contact,
                    const ReducedContact& first) {
   if (contact.owner != first.owner) {
-    throw NumericalError("the systems of a batch must have as many blades at their contacts");
+    throw NumericalError("the systems of a batch must have as many blades or elements at their contacts");
   }
   if (contact.law.index() != rows.law) {
     throw NumericalError("the systems of a batch must have the same laws at their contacts");
@@ -148,7 +152,7 @@ void add_contact(Pattern::ContactRows& rows, const ReducedContact& contact, int 
     if (contact.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
     if (contact.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
   }
-  if (rows.rubs_apart || rows.has_normal()) insert_friction(rows, contact, n);
+  if (rows.slips_apart()) insert_friction(rows, contact, n);
   const Friction& f = contact.friction;
   rows.has_rate = rows.has_rate || is_damped(contact.law);
   rows.has_friction = rows.has_friction || f.mu > 0.0;

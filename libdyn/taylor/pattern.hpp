@@ -31,6 +31,7 @@ struct Pattern {
     bool rubs_apart = false;
     bool is_plane = false;  ///< it is met in one direction, which does not change
     bool is_wall = false;   ///< it is met on a curve that is no circle
+    bool is_rolling = false;  ///< it is an element of a rolling bearing
     int group = -1;         ///< of places that turn, in turning
     bool has_rate = false;  ///< the law depends on the rate of the depth
     bool has_friction = false;
@@ -40,7 +41,9 @@ struct Pattern {
     bool is_analytic = true;           ///< the law has a Taylor series at the surface
 
     /// Whether the lanes keep its normal and its depth, and no distance from a center.
-    bool has_normal() const { return is_plane || is_wall; }
+    bool has_normal() const { return is_plane || is_wall || is_rolling; }
+    /// Whether the lanes keep the velocity of the slip beside the distance.
+    bool slips_apart() const { return rubs_apart || is_plane || is_wall; }
   };
   struct FilmRows {
     std::vector<int> of_x, of_y;                ///< coordinates that move the journal in x, in y

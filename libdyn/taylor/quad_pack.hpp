@@ -85,6 +85,12 @@ inline QuadPack arc_cotangent(const QuadPack& a) {
 inline QuadPack log(const QuadPack& a) {
   return logq(a.x);
 }
+inline QuadPack exp(const QuadPack& a) {
+  return expq(a.x);
+}
+inline QuadPack ninth_root(const QuadPack& a) {
+  return powq(a.x, QuadPack::Number(1.0) / 9.0);
+}
 inline void sin_cos(const QuadPack& a, QuadPack& sine, QuadPack& cosine) {
   sincosq(a.x, &sine.x, &cosine.x);
 }

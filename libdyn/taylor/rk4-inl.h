@@ -34,7 +34,10 @@ struct PlaceOfContact {
 
   /// From the displacement to the place; whether a lane is beyond the surface.
   HWY_INLINE HWY_ATTR bool find(const ContactLanes<P>& c) {
-    return c.rows.is_plane ? find_on_plane(c) : c.wall ? find_on_wall(c) : find_on_circle(c);
+    return c.rows.is_plane     ? find_on_plane(c)
+           : c.wall            ? find_on_wall(c)
+           : c.rows.is_rolling ? find_on_element(c)
+                               : find_on_circle(c);
   }
 
  private:
@@ -54,6 +57,22 @@ struct PlaceOfContact {
     const P r = sqrt(select(beyond, s, c.clearance2));
     inverse_r = P(1.0) / r;
     depth = r - c.clearance;
+    return true;
+  }
+
+  /// d is the direction of the element, which turns; tip is what moves it there, n . u.
+  HWY_INLINE HWY_ATTR bool find_on_element(const ContactLanes<P>& c) {
+    tip_x = dx - c.offset_x;
+    tip_y = dy - c.offset_y;
+    const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
+    dx = fnma(sine, c.blade_sine, cosine * c.blade_cosine);
+    dy = fma(cosine, c.blade_sine, sine * c.blade_cosine);
+    depth = fma(dx, tip_x, dy * tip_y) - c.plane_at;
+    if (c.shapes) depth = depth + c.shapes->height_now();
+    const P nothing(0.0);
+    beyond = less(nothing, depth);
+    if (!any(depth, beyond)) return false;
+    depth = select(beyond, depth, c.least_depth);
     return true;
   }
 
@@ -133,7 +152,7 @@ class Rk4Lanes {
           ++t.state.revolution;
           t.state.phase = 0.0;
           set_lane(time_, l, 0.0);
-          equations_.begin_revolution(*t.system, t.system->phase_rate(), t.state.revolution, l);
+          begin_revolution(*t.system, t.state.revolution, l);
         }
         if (is_good && revolution < t.revolutions) continue;
         const std::vector<P>& y = is_good ? y_ : start_;
@@ -165,7 +184,12 @@ class Rk4Lanes {
     set_lane(rate_, l, s.phase_rate());
     set_lane(period_, l, s.period());
     set_lane(time_, l, t.state.phase / s.phase_rate());
-    equations_.begin_revolution(s, s.phase_rate(), t.state.revolution, l);
+    begin_revolution(s, t.state.revolution, l);
+  }
+
+  HWY_ATTR void begin_revolution(const ContactSystem& s, long revolution, int l) {
+    equations_.begin_revolution(s, s.phase_rate(), revolution, l);
+    begin_turning(disks_, contacts_, s, revolution, l);
   }
 
   /// Steps of what is left of a revolution: as many as the lane needs that needs most.
@@ -189,6 +213,10 @@ class Rk4Lanes {
     P sine, cosine;
     const auto go_to = [&](const P& time) HWY_ATTR {
       sin_cos(rate_ * time, sine, cosine);
+      for (const auto& disk : disks_) disk->start(time);
+      for (ContactLanes<P>& c : contacts_) {
+        if (c.shapes) c.shapes->start(time);
+      }
       for (size_t o = 0; o < swings_.size(); ++o) {
         const OtherLoadLanes<P>& from = equations_.other_loads[o];
         sin_cos(fma(from.rate, time, from.start), swings_[o].sine, swings_[o].cosine);
@@ -245,10 +273,6 @@ class Rk4Lanes {
       for (const int j : rows.of_rate) {
         for (const int i : rows.rows) a[i] = fnma(*factor++, rate[j], a[i]);
       }
-    }
-    for (const auto& disk : disks_) {
-      disk->sine[0] = disk->turns * sine;
-      disk->cosine[0] = fma(disk->turns, cosine, P(1.0) - disk->turns);
     }
     for (const ContactLanes<P>& c : contacts_) push(c, y, a);
     for (const auto& film : films_) film->add_force(y, rate, a, thinnest_);

@@ -162,6 +162,26 @@ struct SquareRoot : SeriesTag {
   }
 };
 
+/// a^(1/9):  9 k a_0 c_k = sum_{0<i<=k} (10 i - 9 k) a_i c_{k-i}.
+template <class A>
+struct NinthRoot : SeriesTag {
+  using Number = typename A::Number;
+  A a;
+  Number inverse;
+  Number x[Number::most_terms], c[Number::most_terms];
+  explicit NinthRoot(const A& of) : a(of) {}
+  HWY_ATTR inline Number at(int k, const Number& u, const Number& v) {
+    x[k] = a.at(k, u, v);
+    if (k == 0) {
+      inverse = Number(1.0) / x[0];
+      return c[0] = ninth_root(x[0]);
+    }
+    Number sum(0.0);
+    for (int i = 1; i <= k; ++i) sum = fma(Number(10.0 * i - 9.0 * k) * x[i], c[k - i], sum);
+    return c[k] = sum * (inverse / Number(9.0 * k));
+  }
+};
+
 template <Series A, Series B>
 HWY_ATTR inline auto operator+(const A& a, const B& b) {
   if constexpr (is_zero<A>) {
@@ -241,6 +261,10 @@ template <Series A>
 HWY_ATTR inline auto sqrt(const A& a) {
   return SquareRoot<A>(a);
 }
+template <Series A>
+HWY_ATTR inline auto ninth_root(const A& a) {
+  return NinthRoot<A>(a);
+}
 
 // ---- derivatives of expressions by one of their leaves ------------------------------------------
 
@@ -277,6 +301,10 @@ HWY_ATTR inline auto derivative(const Quotient<A, B>& e) {  // (a' - (a / b) b')
 template <int I, class A>
 HWY_ATTR inline auto derivative(const SquareRoot<A>& e) {
   return derivative<I>(e.a) / (2.0 * e);
+}
+template <int I, class A>
+HWY_ATTR inline auto derivative(const NinthRoot<A>& e) {
+  return derivative<I>(e.a) * (e / (9.0 * e.a));
 }
 
 // ---- whole series -------------------------------------------------------------------------------

@@ -113,7 +113,7 @@ HWY_ATTR void SlopeCarrier<P, true>::begin_revolution(long revolution) {
     if (!columns[c].parameter) continue;
     const auto& neighbors = columns[c].parameter->neighbors;
     for (size_t j = 0; j < neighbors.size(); ++j) {
-      m_.equations.begin_revolution(neighbors[j], neighbors[j].phase_rate(), revolution,
+      m_.begin_revolution(neighbors[j], neighbors[j].phase_rate(), revolution,
                                     lane_of_neighbor(static_cast<int>(c), static_cast<int>(j)));
     }
   }

@@ -145,6 +145,14 @@ HWY_ATTR inline Sloped tanh(const Sloped& a) {
 HWY_ATTR inline Sloped log(const Sloped& a) {
   return chained(a, log(a.x), Sloped::Value(1.0) / a.x);
 }
+HWY_ATTR inline Sloped exp(const Sloped& a) {
+  const Sloped::Value y = exp(a.x);
+  return chained(a, y, y);
+}
+HWY_ATTR inline Sloped ninth_root(const Sloped& a) {
+  const Sloped::Value y = ninth_root(a.x);
+  return chained(a, y, y / (Sloped::Value(9.0) * a.x));
+}
 HWY_ATTR inline Sloped arc_cotangent(const Sloped& a) {
   return chained(a, arc_cotangent(a.x), Sloped::Value(-1.0) / fma(a.x, a.x, Sloped::Value(1.0)));
 }

@@ -60,7 +60,11 @@ HWY_ATTR P StepLength<P>::find(MotionLanes<P>& m) {
     const V speed = rough_log2(as<V>(m.clock.rate)) - V(std::log2(N + 2.0));
     h = min(h, log2_step(V(e + speed), last, N + 1));
   }
-  return P(V(0.95) * rough_exp2(h));
+  V step = V(0.95) * rough_exp2(h);
+  for (const ContactLanes<P>& c : m.contacts) {
+    if (c.shapes) step = min(step, as<V>(c.shapes->longest));
+  }
+  return P(step);
 }
 
 }  // namespace HWY_NAMESPACE

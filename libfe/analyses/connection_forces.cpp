@@ -99,7 +99,7 @@ std::vector<CarryingPart> carrying_parts(const Assembler& assembler) {
   add("seal", s.seals);
   add("link", s.links);
   for (const LinearizedConnection& c : s.linearized) {
-    parts.push_back({"oil film", c.name, assembler.point(c.from), assembler.point(c.to)});
+    parts.push_back({c.kind, c.name, assembler.point(c.from), assembler.point(c.to)});
   }
   const auto forces = support_forces(s, assembler.mesh(), assembler.dofs());
   for (std::size_t i = 0, place = 1; i < forces.size(); ++i, ++place) {

@@ -267,6 +267,7 @@ struct LinearizedConnection {
   /// Coefficients at a spin and a whirl frequency, as a kind of bearing has them (bearings.hpp)
   /// [rad/s]; throws a NumericalError where the state is not found.
   std::function<BearingCoefficients(double Omega, double omega)> at;
+  std::string_view kind = "oil film";  ///< or "rolling bearing"
 };
 
 /// Deflections of the shaft without any force on it, at t = 0; they turn with the shaft.

@@ -90,12 +90,13 @@ std::string stiffness_text(const Connection& b) {
 
 /// A rotor of bodies only: contacts seen along the axis.
 std::vector<Figure> front_view(const Model& model) {
-  if (model.contacts.empty()) return {};
+  const std::vector<Contact> contacts = stator_contacts(model.contacts);
+  if (contacts.empty()) return {};
   Figure f{.subtitle = "Rotor and stators, seen along the axis; clearances enlarged"};
-  f.columns = static_cast<int>(std::min<std::size_t>(3, model.contacts.size()));
+  f.columns = static_cast<int>(std::min<std::size_t>(3, contacts.size()));
   f.width = std::max(460.0, 360.0 * f.columns);
   f.height = 420.0;
-  for (const Contact& c : model.contacts) {
+  for (const Contact& c : contacts) {
     Panel p;
     p.has_equal_scales = true;
     p.title = c.name;
@@ -285,6 +286,18 @@ void add_ring(SideView& v, const char* name, Paint paint, double at, double half
   }
 }
 
+/// Rolling bearings. The model does not give their width.
+void add_rolling_bearings(SideView& v) {
+  for (const Contact& b : rolling_bearings(v.model.contacts)) {
+    const double at = v.position(b.at);
+    if (at < 0.0) continue;
+    const double low = v.shaft_radius(b.at) + 0.004 * v.length;
+    add_ring(v, "rolling bearing", Paint::bearing, at, 0.3 * v.symbol(), low,
+             fmt::format("rolling bearing {}: {} elements", b.name, places_of(b.geometry)));
+    v.add_name(at, low + 0.5 * v.symbol(), b.name, Paint::bearing, true);
+  }
+}
+
 /// Bearings of oil films, as long as they are.
 void add_films(SideView& v) {
   for (const OilFilm& f : v.model.films) {
@@ -300,7 +313,7 @@ void add_films(SideView& v) {
 
 void add_contacts(SideView& v) {
   const double symbol = v.symbol();
-  for (const Contact& c : v.model.contacts) {
+  for (const Contact& c : stator_contacts(v.model.contacts)) {
     const double at = v.position(c.at);
     if (at < 0.0) continue;
     const double radius =
@@ -368,6 +381,7 @@ std::vector<Figure> layout_of(const Model& model, const Assembler& assembler) {
   add_bearings(v);
   add_seals(v);
   add_films(v);
+  add_rolling_bearings(v);
   add_contacts(v);
   add_probe_bars(v);
   add_nodes(v);

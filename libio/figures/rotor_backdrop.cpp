@@ -122,6 +122,7 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   };
   for (const Connection& b : s.bearings) add_bearing(b.from, b.name);
   for (const OilFilm& f : model.films) add_bearing(f.at, f.name);
+  for (const Contact& b : rolling_bearings(model.contacts)) add_bearing(b.at, b.name);
   for (const Connection& seal : s.seals) {
     const double at = per_mm() * position(seal.from);
     if (at < 0.0) continue;
@@ -132,7 +133,7 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
       panel.curves.push_back(area("seal", Paint::seal, shape.x, shape.y, 0.75, seal.name));
     }
   }
-  for (const Contact& c : model.contacts) {
+  for (const Contact& c : stator_contacts(model.contacts)) {
     const double at = per_mm() * position(c.at);
     if (at < 0.0) continue;
     const double radius = c.friction.radius > 0.0 ? c.friction.radius : radius_at(c.at);

@@ -71,8 +71,8 @@ void set_radii(ModelReading& reading, const Mesh& mesh) {
   }
 }
 
-/// Contacts of several shafts that are made for one: blades turn with the first shaft, and friction
-/// that always has the sense of the spin needs a rotor that turns faster than what it touches.
+/// Friction that always has the sense of the spin needs a rotor that turns faster than what it
+/// touches.
 void check_rotors(ModelReading& reading, const Mesh& mesh) {
   const Structure& s = reading.model.structure;
   if (s.rotors.empty()) return;
@@ -81,10 +81,7 @@ void check_rotors(ModelReading& reading, const Mesh& mesh) {
     const double against = spin_ratio(resolve(c.against, s, mesh), s, mesh);
     const std::string key = "contact." + c.name;
     const AnyGeometry geometry = geometry_of(c);
-    if (turns(geometry) && (at != 1.0 || against != 0.0)) {
-      reading.problems.push_back(
-          {c.where, key + ".law", "blades are those of the first shaft, and touch what stands"});
-    } else if ((c.friction.slip == Slip::forward || rubs_apart(geometry)) && !(at > against)) {
+    if ((c.friction.slip == Slip::forward || rubs_apart(geometry)) && !(at > against)) {
       reading.problems.push_back(
           {c.where, key,
            fmt::format("its friction always has the sense of the spin, but the speed of what "

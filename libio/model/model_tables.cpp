@@ -26,6 +26,7 @@
   support_table(),   \
   magnetic_bearing_table(), \
   oil_film_table(),  \
+  rolling_bearing_table(), \
   contact_table(),   \
   damping_table(),   \
   reduction_table(), \

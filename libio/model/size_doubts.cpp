@@ -144,8 +144,9 @@ void doubt_clearances(const ConfigNode& root, const Model& model, std::vector<Pr
                       fmt::format("{} is more than the radius of the shaft there, {}",
                                   format_length(clearance), format_length(*radius))});
   };
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    look_at("contact", i, model.contacts[i].at, model.contacts[i].clearance);
+  const std::vector<Contact> contacts = stator_contacts(model.contacts);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    look_at("contact", i, contacts[i].at, contacts[i].clearance);
   }
   for (std::size_t i = 0; i < s.bearings.size(); ++i) {
     look_at("bearing", i, s.bearings[i].from, s.bearings[i].clearance);

@@ -146,7 +146,7 @@ Sheet probes_sheet(const ModelParts& parts) {
 Sheet contacts_sheet(const ModelParts& parts) {
   return {"Contacts",
           sheet_table(
-              parts.model.contacts,
+              stator_contacts(parts.model.contacts),
               {{"contact", [](const Contact& c) { return c.name; }},
                {shown_heading("at z", "mm"), [&](const Contact& c) { return z_text(c.at, parts); }},
                {"against", [&](const Contact& c) { return z_text(c.against, parts); }},
@@ -170,7 +170,7 @@ std::vector<Sheet> attached_sheets(const ModelParts& parts) {
   add(!s.unbalances.empty(), unbalances_sheet);
   add(!s.forces.empty(), forces_sheet);
   add(!s.probes.empty(), probes_sheet);
-  add(!parts.model.contacts.empty(), contacts_sheet);
+  add(!stator_contacts(parts.model.contacts).empty(), contacts_sheet);
   return sheets;
 }
 

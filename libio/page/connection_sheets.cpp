@@ -199,6 +199,22 @@ Sheet films_sheet(const ModelParts& parts) {
                 [](const OilFilm& f) { return f.is_linearized ? "linearized" : "left out"; }}})};
 }
 
+Sheet rolling_sheet(const ModelParts& parts) {
+  const auto row = [](const Contact& c) -> const auto& { return *rolling_elements(c.geometry); };
+  return {"Rolling bearings",
+          sheet_table(
+              rolling_bearings(parts.model.contacts),
+              {{"bearing", [](const Contact& c) { return c.name; }},
+               {shown_heading("at z", "mm"), [&](const Contact& c) { return z_text(c.at, parts); }},
+               {"against", [&](const Contact& c) { return z_text(c.against, parts); }},
+               {"elements", [=](const Contact& c) { return std::to_string(row(c).elements); }},
+               {shown_heading("radial play", "um"),
+                [=](const Contact& c) { return shown_digits(row(c).play, "um"); }},
+               {"cage over shaft", [=](const Contact& c) { return five_digits(row(c).cage); }},
+               {"law of an element", [](const Contact& c) { return std::string(std::visit([](const auto& law) { return law.name; }, c.law));
+                }}})};
+}
+
 }  // namespace
 
 std::vector<Sheet> connection_sheets(const ModelParts& parts) {
@@ -211,6 +227,7 @@ std::vector<Sheet> connection_sheets(const ModelParts& parts) {
   if (!parts.structure.gears.empty()) sheets.push_back(gears_sheet(parts));
   if (!parts.structure.supports.empty()) sheets.push_back(supports_sheet(parts));
   if (!parts.model.films.empty()) sheets.push_back(films_sheet(parts));
+  if (!rolling_bearings(parts.model.contacts).empty()) sheets.push_back(rolling_sheet(parts));
   return sheets;
 }
 

@@ -209,6 +209,14 @@ std::vector<Sheet> rest_sheets(const ResultView& result) {
                              shown("sommerfeld", "", ".3f").as("Sommerfeld number"),
                              shown("power_loss", "W", ".0f").as("power loss")})});
   }
+  if (const auto& rolling = result_of<RunningBearings>(result).bearings; !rolling.empty()) {
+    sheets.push_back(
+        {"Rolling bearings at rest",
+         sheet_table(rolling,
+                     {shown("name").as("rolling bearing"), shown("fx", "N", ".1f").as("load x"),
+                      shown("fy", "N", ".1f").as("load y"), shown("loaded").as("elements pressed"),
+                      shown("largest", "N", ".1f").as("largest load of one")})});
+  }
   const std::vector<RunningClearance> clearances = clearances_at_rest(result);
   if (!clearances.empty()) {
     sheets.push_back(

@@ -48,7 +48,10 @@ std::string parts_of(const ResultView& result) {
   count(s.disks.size(), "disk", "disks");
   count(s.bearings.size(), "bearing", "bearings");
   if (!s.seals.empty()) count(s.seals.size(), "seal", "seals");
-  count(m.contacts.size(), "contact", "contacts");
+  if (const auto rolling = rolling_bearings(m.contacts).size(); rolling > 0) {
+    count(rolling, "rolling bearing", "rolling bearings");
+  }
+  count(stator_contacts(m.contacts).size(), "contact", "contacts");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

@@ -111,7 +111,13 @@ void add_model(const Model& model, Sentences& to) {
         std::visit([](const auto& law) { return law.name; }, film.law),
         film.is_linearized ? "; in linear analyses linearized about the static equilibrium" : ""));
   }
-  if (!model.contacts.empty()) {
+  if (!rolling_bearings(model.contacts).empty()) {
+    to.add(
+        "Rolling bearings: each ball or roller pressed by Hertz, rolling without slip, without mass, "
+        "in the plane of the bearing; in linear analyses linearized about the static equilibrium, "
+        "the cage where it is at time 0.");
+  }
+  if (!stator_contacts(model.contacts).empty()) {
     to.add("Contacts: laws and Coulomb friction as tabulated; linear analyses leave them out.");
   }
   to.add(s.gravity > 0.0 ? fmt::format("Gravity: {:.4g} m/s² along -y.", s.gravity)

@@ -86,6 +86,7 @@ Recording stored_recording(const ResultReader& file, const Scene& scene, std::si
 void write_rest(ResultWriter& file, const StaticStudy& study) {
   write_result(file, study.at_rest);
   if (!study.on_films.films.empty()) write_result(file, study.on_films);
+  if (!study.on_elements.bearings.empty()) write_result(file, study.on_elements);
   if (study.line.z.size() > 0) write_result(file, study.line);
 }
 

@@ -50,7 +50,7 @@ std::vector<OilFilm> films_of(const Model& model, bool is_linearized) {
 
 /// Which contacts and oil films a linear analysis leaves out; empty: none.
 std::string left_out_note(const Model& model) {
-  const std::string contacts = names_of(model.contacts, "contact");
+  const std::string contacts = names_of(stator_contacts(model.contacts), "contact");
   const std::string films = names_of(films_of(model, false), "oil film");
   if (contacts.empty() && films.empty()) return "";
   return fmt::format("left out: {}{}{}{}", contacts, contacts.empty() || films.empty() ? "" : ", ",
@@ -152,7 +152,10 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
     table.row({"bow", format_length(largest_deflection(s.bow)) + " at most"});
   }
   if (!model.films.empty()) table.row({"oil films", fmt::format("{}", model.films.size())});
-  table.row({"contacts", fmt::format("{}", model.contacts.size())});
+  if (const auto rolling = rolling_bearings(model.contacts).size(); rolling > 0) {
+    table.row({"rolling bearings", fmt::format("{}", rolling)});
+  }
+  table.row({"contacts", fmt::format("{}", stator_contacts(model.contacts).size())});
   table.row({"operating speed", model.has_speed ? format_speed(model.speed) : "not given"});
   return table.text() + rest_text(facts);
 }
@@ -213,8 +216,10 @@ std::vector<std::string> left_out_notes(const Model& model, const std::vector<do
 
 std::vector<std::string> film_notes(const Model& model) {
   const std::string films = names_of(films_of(model, true), "oil film");
-  if (films.empty()) return {};
-  return {"linearized about the static equilibrium at each speed: " + films};
+  const std::string rolling = names_of(rolling_bearings(model.contacts), "rolling bearing");
+  if (films.empty() && rolling.empty()) return {};
+  return {"linearized about the static equilibrium at each speed: " + films +
+          (films.empty() || rolling.empty() ? "" : ", ") + rolling};
 }
 
 std::vector<std::string> speed_notes(const Model& model) {

@@ -40,6 +40,9 @@ Report run_check(const Invocation& call) {
   const ModelFacts facts = model_facts(model, assembler);
   Report report = begin_report(call, model, record_of(facts));
   if (!model.films.empty()) report.record.set("oil_films", static_cast<long>(model.films.size()));
+  if (const auto rolling = std::ssize(rolling_bearings(model.contacts)); rolling > 0) {
+    report.record.set("rolling_bearings", static_cast<long>(rolling));
+  }
   report.text = shown_line(model.title.empty() ? call.file : model.title) + "\n\n";
   if (!model.structure.shaft.empty()) report.text += drawn(model, assembler);
   const std::vector<Problem> doubts = doubts_of(call, facts, model);

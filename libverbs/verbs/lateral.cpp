@@ -81,7 +81,7 @@ Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
   report.record.merge(record_of(study.criticals)).set("campbell", record_of(study.campbell));
   report.text = text_of(study);
   Model rotor = model;
-  rotor.contacts.clear();  // their clearances are not left out
+  rotor.contacts = rolling_bearings(rotor.contacts);
   report.add_notes(linear_notes(rotor, study.report.speeds));
   if (has_linear_films(model)) {
     report.add_notes(

@@ -13,6 +13,7 @@
 #include "libcontact/dual_functions.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "tests/support/oil_films.hpp"
+#include "tests/support/rotor_in_bearing.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::contact_ports_test {
@@ -63,6 +64,16 @@ Model blades(Slip slip, double tolerance) {
   return m;
 }
 
+/// In two revolutions the cage turns by one.
+Model balls() {
+  test::RotorInBearing rotor;
+  rotor.bearing.cage_ratio = 0.5;
+  rotor.bearing.clearance = 4e-4;
+  rotor.bearing.hertz_stiffness = 1e7;
+  rotor.waves = {{.race = Race::inner, .order = 3.0, .height = 1e-5}};
+  return rotor.model();
+}
+
 Model squeeze(FilmTheory theory, FilmExtent extent) {
   Model m = test::MassOnFilm{}.model();
   m.films[0].law = Squeeze{.theory = theory, .extent = extent};
@@ -96,6 +107,7 @@ std::vector<Case> cases() {
           {"face that creeps", face(Slip::actual, 5.0), 2.0},
           {"blades", blades(Slip::forward, 0.0), 2.0},
           {"blades that creep", blades(Slip::actual, 30.0), 2.0},
+          {"balls", balls(), 2.0},
           {"film", test::MassOnFilm{}.model(), 0.3},
           {"squeeze film", squeeze(FilmTheory::short_bearing, FilmExtent::full), 0.3},
           {"long squeeze film", squeeze(FilmTheory::long_bearing, FilmExtent::half), 0.3},

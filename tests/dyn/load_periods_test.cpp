@@ -105,10 +105,10 @@ TEST(LoadPeriods, KeepTheirAngleOverManyRevolutions) {
   constexpr double kept = 1e-12;  // [rad]
   ReducedExcitation o;
   o.ratio = 0.375;
-  EXPECT_NEAR(o.start_angle(0), 0.0, kept);
-  EXPECT_NEAR(o.start_angle(1), 0.75 * pi, kept);
-  EXPECT_NEAR(o.start_angle(3), 0.25 * pi, kept);
-  EXPECT_NEAR(o.start_angle(1'000'000'003), 0.25 * pi, kept);  // a billion is a multiple of 8
+  EXPECT_NEAR(start_angle(o.ratio, 0), 0.0, kept);
+  EXPECT_NEAR(start_angle(o.ratio, 1), 0.75 * pi, kept);
+  EXPECT_NEAR(start_angle(o.ratio, 3), 0.25 * pi, kept);
+  EXPECT_NEAR(start_angle(o.ratio, 1'000'000'003), 0.25 * pi, kept);  // a billion is a multiple of 8
   EXPECT_NEAR(o.angle({2.0, 1}), 0.75 * pi + 0.75, kept);
 }
 

@@ -15,6 +15,7 @@
 #include "tests/support/bladed_disk.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/overhung_disk.hpp"
+#include "tests/support/rotor_in_bearing.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::motion_slopes_test {
@@ -338,6 +339,34 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesOfBlades) {
   const auto found =
       expect_differences({.model = test::bladed_disk(), .settle = 5, .revolutions = 13}, knobs);
   EXPECT_GE(found.events.size(), 50u);
+}
+
+geometry::RollingElements& elements(Model& m) {
+  return std::get<geometry::RollingElements>(m.contacts[0].geometry);
+}
+
+TEST(MotionSlopes, AreTheLimitOfDifferencesOfRollingBearings) {
+  const auto of_shape = [](std::size_t i, double geometry::RaceShape::*member) {
+    return [=](Model& m) -> double& { return elements(m).shapes[i].*member; };
+  };
+  const std::vector<Knob> knobs{
+      {"play", [](Model& m) -> double& { return elements(m).play; }},
+      {"cage", [](Model& m) -> double& { return elements(m).cage; }},
+      {"height", of_shape(0, &geometry::RaceShape::height)},
+      {"sharpness", of_shape(2, &geometry::RaceShape::sharpness)},
+      hertz(),
+      speed(),
+      mass(0)};
+  const auto found = expect_differences(
+      {.model = test::rotors_in_bearings().back().model(), .settle = 5, .revolutions = 7}, knobs);
+  EXPECT_GE(found.events.size(), 50u);
+}
+
+TEST(MotionSlopes, AreTheLimitOfDifferencesOfRollers) {
+  const std::vector<Knob> knobs{
+      {"line", [](Model& m) -> double& { return std::get<Line<>>(m.contacts[0].law).k; }}};
+  expect_differences(
+      {.model = test::rotors_in_bearings()[2].model(), .settle = 5, .revolutions = 7}, knobs);
 }
 
 TEST(MotionSlopes, AreTheLimitOfDifferencesOnOilFilms) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -87,6 +88,35 @@ TEST(TwoShafts, DragOilByTheSumOfTheirSpeeds) {
     EXPECT_DOUBLE_EQ(drag_ratio(to_ground, assembler), ratio);
     const FilmAtSpeed at = at_speed(film, 400.0, drag_ratio(film, assembler));
     EXPECT_DOUBLE_EQ(at.spin, 1.0 + ratio);
+  }
+}
+
+// Blades turn with the shaft that they are on, and slip past what they touch.
+TEST(TwoShafts, CarryBladesOnEither) {
+  for (const double ratio : {1.5, -0.5}) {
+    for (const bool is_outer : {true, false}) {
+      const Spools spools{.ratio = ratio};
+      Model model = spools.model();
+      model.contacts[0] = {.name = "tips",
+                           .at = is_outer ? outer(0.3) : at(0.3),
+                           .against = is_outer ? at(0.3) : outer(0.3),
+                           .clearance = 1e-3,
+                           .friction = {.mu = 0.1, .slip = Slip::actual, .tolerance = 1.0},
+                           .law = BladeTip<>{.blades = 3,
+                                             .tip_radius = 0.1,
+                                             .blade_length = 0.04,
+                                             .bending_stiffness = 20.0,
+                                             .k = 1e9}};
+      const Scene scene = make_scene(model);
+      const ReducedContact& first = scene.contacts.contacts()[0];
+      const double own = 400.0 * (is_outer ? ratio : 1.0), other = 400.0 * (is_outer ? 1.0 : ratio);
+      const Vec at_rest = Vec::Zero(scene.contacts.size());
+      const ContactForces f = kinematics(first, {0.3, 7}, at_rest.data(), scene.contacts.layout());
+      EXPECT_NEAR(f.slip, (own - other) * 0.1, 1e-9);
+      const double turned = (0.3 + 7.0 * 2.0 * std::numbers::pi) * own / 400.0;
+      EXPECT_NEAR(f.n(0), std::cos(turned), 1e-12);
+      EXPECT_NEAR(f.n(1), std::sin(turned), 1e-12);
+    }
   }
 }
 
