@@ -58,7 +58,7 @@ inline const geometry::RollingElements* rolling_elements(const AnyGeometry& any)
 /// always may.
 inline double slack_of(const AnyGeometry& any, double clearance) {
   const auto* row = rolling_elements(any);
-  return row ? row->slack() : clearance;
+  return row ? geometry::slack_of(*row) : clearance;
 }
 /// Speed of a place that turns over the rate of the phase; 0 of what stands.
 inline double turning_ratio_of(const AnyGeometry& any) {
@@ -121,8 +121,8 @@ inline double reach_of(const AnyGeometry& any, double clearance, const Vec2& alo
   return clearance * clearance / distance_of(any, clearance, clearance * along);
 }
 
-/// Speeds over the rate of the phase, each of which a contact that turns repeats with: its places are
-/// alike, so that it does when one is where another was; shapes of a race repeat with the race.
+/// Speeds over the rate of the phase, each of which a contact that turns repeats with: its places
+/// are alike, so that it does when one is where another was; shapes of a race repeat with the race.
 inline std::vector<double> repeating_ratios_of(const AnyGeometry& any) {
   std::vector<double> ratios;
   if (turns(any)) ratios.push_back(places_of(any) * turning_ratio_of(any));

@@ -55,16 +55,11 @@ struct ContactSpace {
   double rim_speed = 0.0;  ///< of the rotor's surface in the slip [m/s]
 };
 
-/// How fast the two parts of a contact turn.
+/// How fast the two parts of a contact turn [rad/s].
 struct PartSpeeds {
-  double Omega = 0.0;    ///< of the first shaft [rad/s]
-  double at = 1.0;       ///< of the part that touches, over it
-  double against = 0.0;  ///< of the part that it touches, over it
-
-  /// Ratio of a speed to the rate of the phase, which is |Omega|; 0 without spin.
-  double by_phase(double ratio) const {
-    return Omega > 0.0 ? ratio : Omega < 0.0 ? -ratio : 0.0;
-  }
+  double at = 0.0;          ///< of the part that touches
+  double against = 0.0;     ///< of the part that it touches
+  double phase_rate = 1.0;  ///< above 0: phases of motions are told by it
 };
 
 /// Motion of a place over (d, w, v): displacement from the middle of the clearance [m], its rate,

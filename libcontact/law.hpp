@@ -44,7 +44,6 @@ WHIRL_INLINE auto depth_root(const T& d) {
   return sqrt(d);
 }
 
-
 /// Ninth root of a depth; zero a little beyond the surface.
 WHIRL_INLINE double depth_ninth_root(double d) {
   return d > 0.0 ? std::pow(d, 1.0 / 9.0) : 0.0;

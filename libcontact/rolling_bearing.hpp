@@ -32,11 +32,11 @@ struct RaceWaves {
 
   static constexpr auto fields() {
     using enum Range;
-    return std::tuple{required("race", &RaceWaves::race, "", any, "which has the waves"),
-                      required("order", &RaceWaves::order, "", positive, "how many around the race"),
-                      required("height", &RaceWaves::height, "m", positive, "their amplitude"),
-                      optional("angle", &RaceWaves::angle, "rad", any,
-                               "of a top at time 0, from +x to +y")};
+    return std::tuple{
+        required("race", &RaceWaves::race, "", any, "which has the waves"),
+        required("order", &RaceWaves::order, "", positive, "how many around the race"),
+        required("height", &RaceWaves::height, "m", positive, "their amplitude"),
+        optional("angle", &RaceWaves::angle, "rad", any, "of a top at time 0, from +x to +y")};
   }
 };
 
@@ -54,8 +54,7 @@ struct RaceSpall {
         required("width", &RaceSpall::width, "rad", positive,
                  "angle between the places where half of its depth is left, up to 90 deg"),
         required("depth", &RaceSpall::depth, "m", positive, "of its middle"),
-        optional("angle", &RaceSpall::angle, "rad", any,
-                 "of its middle at time 0, from +x to +y")};
+        optional("angle", &RaceSpall::angle, "rad", any, "of its middle at time 0, from +x to +y")};
   }
 };
 
@@ -88,8 +87,7 @@ struct RollingBearing {
         required("elements", &B::elements, "", positive, "how many balls or rollers, 3 to 200"),
         alternative("pitch_diameter", &B::pitch_diameter, "m", positive,
                     "of the circle of the elements' centers"),
-        alternative("element_diameter", &B::element_diameter, "m", positive,
-                    "of a ball or roller"),
+        alternative("element_diameter", &B::element_diameter, "m", positive, "of a ball or roller"),
         optional("contact_angle", &B::contact_angle, "rad", nonnegative,
                  "from the plane of the bearing to the line on which a ball is pressed, below 80 "
                  "deg"),
@@ -102,8 +100,7 @@ struct RollingBearing {
                     "below 1; left out: that of pure rolling"),
         optional("cage_angle", &B::cage_angle, "rad", any,
                  "of an element at time 0, from +x to +y"),
-        optional("damping", &B::damping, "N.s/m", nonnegative,
-                 "between the rings, in x and in y"),
+        optional("damping", &B::damping, "N.s/m", nonnegative, "between the rings, in x and in y"),
         alternative("hertz_stiffness", &B::hertz_stiffness, "N/m^1.5", positive,
                     "k in Q = k d^1.5 of a ball between both races"),
         alternative("line_stiffness", &B::line_stiffness, "N/m", positive,
@@ -177,9 +174,10 @@ inline double ball_on_race(double diameter, double along, double groove, double 
   }
   const double modulus = std::sqrt(1.0 - 1.0 / (low * low));
   const double K = std::comp_ellint_1(modulus), E = std::comp_ellint_2(modulus);
-  const double star = 2.0 * K / std::numbers::pi * std::cbrt(std::numbers::pi / (2.0 * low * low * E));
-  const double per_two_thirds = star * 0.5 * sum *
-                                std::cbrt(std::pow(3.0 * (1.0 - poisson * poisson) / (sum * young), 2));
+  const double star =
+      2.0 * K / std::numbers::pi * std::cbrt(std::numbers::pi / (2.0 * low * low * E));
+  const double per_two_thirds =
+      star * 0.5 * sum * std::cbrt(std::pow(3.0 * (1.0 - poisson * poisson) / (sum * young), 2));
   return std::pow(per_two_thirds, -1.5);
 }
 
@@ -195,10 +193,10 @@ inline double element_stiffness(const RollingBearing& b) {
   if (b.kind == ElementKind::ball) {
     if (b.hertz_stiffness > 0.0) return b.hertz_stiffness;
     const double q = b.diameter_ratio(), size = 2.0 / b.element_diameter;
-    const double inner = ball_on_race(b.element_diameter, size * q / (1.0 - q), b.inner_groove,
-                                      b.young, b.poisson);
-    const double outer = ball_on_race(b.element_diameter, -size * q / (1.0 + q), b.outer_groove,
-                                      b.young, b.poisson);
+    const double inner =
+        ball_on_race(b.element_diameter, size * q / (1.0 - q), b.inner_groove, b.young, b.poisson);
+    const double outer =
+        ball_on_race(b.element_diameter, -size * q / (1.0 + q), b.outer_groove, b.young, b.poisson);
     return std::pow(std::pow(inner, -2.0 / 3.0) + std::pow(outer, -2.0 / 3.0), -1.5);
   }
   if (b.line_stiffness > 0.0) return b.line_stiffness;
@@ -228,7 +226,7 @@ inline Contact contact_of(const RollingBearing& b, const std::vector<RaceWaves>&
                           .sharpness = std::log(2.0) / (1.0 - std::cos(0.5 * s.width))});
   }
   Contact contact;
-  contact.clearance = std::max(std::abs(row.slack()), least_length);
+  contact.clearance = std::max(std::abs(slack_of(row)), least_length);
   const double k = element_stiffness(b), c = std::cos(b.contact_angle);
   if (b.kind == ElementKind::ball) {
     contact.law = Hertz<>{.k = k * std::pow(c, 2.5)};

@@ -30,8 +30,7 @@ struct BladeRow {
   int places() const { return blades; }
   BladeRow place(int i, const PartSpeeds& s) const {
     const double angle = 2.0 * std::numbers::pi * i / blades;
-    return {blades,         tip,          std::cos(angle), std::sin(angle), s.by_phase(s.at),
-            s.Omega * s.at * tip};
+    return {blades, tip, std::cos(angle), std::sin(angle), s.at / s.phase_rate, s.at * tip};
   }
   double arm() const { return 1.0; }
   double tip_radius() const { return tip; }

@@ -54,8 +54,7 @@ ContactGap<T> gap_to_element(const GapMotion<T>& m, const T& along, const T& tur
 }
 /// Adds what stands out of a race, at the angle that its shape has under the element.
 template <class T>
-void add_shape(ContactGap<T>& g, const T& height, const T& at, const T& speed,
-               const T& sharpness) {
+void add_shape(ContactGap<T>& g, const T& height, const T& at, const T& speed, const T& sharpness) {
   using std::cos, std::exp, std::sin;
   if (!(value_of(sharpness) > 0.0)) {
     g.depth = g.depth + height * cos(at);
@@ -104,13 +103,13 @@ struct RollingElements {
     RollingElements one = *this;
     const double turning = s.against + cage * (s.at - s.against);
     one.angle = first + 2.0 * std::numbers::pi * i / elements;
-    one.ratio = s.by_phase(turning);
-    one.speed = s.Omega * turning;
+    one.ratio = turning / s.phase_rate;
+    one.speed = turning;
     for (RaceShape& shape : one.shapes) {
       const double past = shape.order * (turning - (shape.is_inner ? s.at : s.against));
       shape.start = shape.order * (one.angle - shape.angle);
-      shape.ratio = s.by_phase(past);
-      shape.speed = s.Omega * past;
+      shape.ratio = past / s.phase_rate;
+      shape.speed = past;
     }
     return one;
   }
@@ -118,14 +117,6 @@ struct RollingElements {
   double tip_radius() const { return 0.0; }
   std::optional<double> rim_radius() const { return 0.0; }
   std::optional<Vec2> direction() const { return std::nullopt; }
-  /// How far the inner race may move from the middle before any element is pressed [m]; at most
-  /// zero where one always may be.
-  double slack() const {
-    double left = play;
-    for (const RaceShape& shape : shapes) left -= shape.top();
-    return left;
-  }
-
   bool operator==(const RollingElements&) const = default;
 
   template <class T>
@@ -143,5 +134,13 @@ struct RollingElements {
     return std::nullopt;  // it turns
   }
 };
+
+/// How far the inner race may move from the middle before any element is pressed [m]; at most zero
+/// where one always may be.
+inline double slack_of(const RollingElements& row) {
+  double left = row.play;
+  for (const RaceShape& shape : row.shapes) left -= shape.top();
+  return left;
+}
 
 }  // namespace whirl::inline contact::geometry

@@ -26,8 +26,8 @@ struct Line {
 
   static constexpr auto fields() {
     using enum Range;
-    return std::tuple{required("line_stiffness", &Line::k, "N/m", positive,
-                               "k in N = k d (d / 1 um)^(1/9)")};
+    return std::tuple{
+        required("line_stiffness", &Line::k, "N/m", positive, "k in N = k d (d / 1 um)^(1/9)")};
   }
 
   bool is_continuous() const { return true; }

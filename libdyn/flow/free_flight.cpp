@@ -132,8 +132,9 @@ void FreeFlight::prepare() {
     layout.eta(rows) = U.transpose();
     const Mat spread = rows.transpose() * factors.solve(rows);
     const double reach = symmetric_modes(0.5 * (spread + spread.transpose())).values(1);
-    const double left = careful * slack_of(c.geometry, c.clearance) - largest_radius(U * eta.col(0) - seen * c.offset,
-                                                               U * eta.col(1), U * eta.col(2));
+    const double left =
+        careful * slack_of(c.geometry, c.clearance) -
+        largest_radius(U * eta.col(0) - seen * c.offset, U * eta.col(1), U * eta.col(2));
     left_.push_back(left);
     room_.push_back(left > 0.0 ? careful * left * left / reach : -1.0);
   }

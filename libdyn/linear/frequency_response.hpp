@@ -72,7 +72,8 @@ struct ResponsePair {
   }
 };
 
-/// Force on a bearing, seal, link, oil film or rolling bearing by a force of size one, over frequency.
+/// Force on a bearing, seal, link, oil film or rolling bearing by a force of size one, over
+/// frequency.
 struct TransmittedForce {
   std::string from;        ///< the force
   std::string kind, name;  ///< of the part that carries

@@ -113,7 +113,7 @@ struct LateralResponse {
   }
 };
 
-/// Largest force of a case on a bearing, seal, link, oil film or rolling bearing up to the trip speed.
+/// Largest force of a case on what carries the rotor, up to the trip speed.
 struct LateralForce {
   int of_case = 0;   ///< from 0
   std::string kind;  ///< "bearing", "seal", "link", "oil film"
@@ -123,13 +123,14 @@ struct LateralForce {
 
   static constexpr auto columns() {
     using F = LateralForce;
-    return ColumnList{column("case", &F::of_case, "", "case of unbalance")
-                          .within(valid::numbers_of("cases"))
-                          .from_one(),
-                      column("kind", &F::kind, "", "bearing, seal, link, oil film or rolling bearing"),
-                      column("name", &F::name, "", "its name"),
-                      column("force", &F::force, "N", "largest in a period, without the weight"),
-                      column("speed", &F::speed, "rad/s", "where it is that large")};
+    return ColumnList{
+        column("case", &F::of_case, "", "case of unbalance")
+            .within(valid::numbers_of("cases"))
+            .from_one(),
+        column("kind", &F::kind, "", "bearing, seal, link, oil film or rolling bearing"),
+        column("name", &F::name, "", "its name"),
+        column("force", &F::force, "N", "largest in a period, without the weight"),
+        column("speed", &F::speed, "rad/s", "where it is that large")};
   }
 };
 

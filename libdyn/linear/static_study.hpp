@@ -57,24 +57,24 @@ struct StaticStudy {
 
   static constexpr auto columns() {
     using S = StaticStudy;
-    return ColumnList{rows(&S::stations, "stations"),
-                      rows(
-                          [](const S& s) -> const auto& { return s.at_rest.bearings; }, "bearings"),
-                      rows(
-                          [](const S& s) -> const auto& { return s.at_rest.links; }, "links")
-                          .maybe()
-                          .only(Written::in_json),
-                      rows(
-                          [](const S& s) -> const auto& { return s.on_films.films; }, "films")
-                          .maybe()
-                          .only(Written::in_json),
-                      rows(
-                          [](const S& s) -> const auto& { return s.on_elements.bearings; },
-                          "rolling_bearings")
-                          .maybe()
-                          .only(Written::in_json),
-                      column("shaft", &S::line, "", "how the shaft bends"),
-                      rows(&S::probes, "probes").maybe().only(Written::in_json)};
+    return ColumnList{
+        rows(&S::stations, "stations"),
+        rows(
+            [](const S& s) -> const auto& { return s.at_rest.bearings; }, "bearings"),
+        rows(
+            [](const S& s) -> const auto& { return s.at_rest.links; }, "links")
+            .maybe()
+            .only(Written::in_json),
+        rows(
+            [](const S& s) -> const auto& { return s.on_films.films; }, "films")
+            .maybe()
+            .only(Written::in_json),
+        rows(
+            [](const S& s) -> const auto& { return s.on_elements.bearings; }, "rolling_bearings")
+            .maybe()
+            .only(Written::in_json),
+        column("shaft", &S::line, "", "how the shaft bends"),
+        rows(&S::probes, "probes").maybe().only(Written::in_json)};
   }
 };
 

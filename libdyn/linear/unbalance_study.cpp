@@ -113,6 +113,15 @@ std::vector<CVec> readings(const Assembler& assembler, const UnbalanceResponse& 
                      assembler);
 }
 
+/// Tells the order or the frequency of a load; neither of one that changes with the speed.
+void tell_frequency(const Excitation& load, auto& of) {
+  if (load.order > 0.0) {
+    of.order = load.order;
+  } else if (load.frequency > 0.0) {
+    of.frequency = load.frequency;
+  }
+}
+
 /// Adds the responses to forces of other frequencies, of stations and along probes.
 /// @param points  of the stations
 void add_forced(const std::vector<NamedPoint>& stations, const Assembler& assembler,
@@ -124,7 +133,7 @@ void add_forced(const std::vector<NamedPoint>& stations, const Assembler& assemb
     const auto name = [&](auto& of) {
       of.force = load.label();
       of.forces = load.names;
-      (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
+      tell_frequency(load, of);
     };
     for (StationResponse& at : station_responses(stations, found)) {
       ForcedResponse of{.node = at.node, .name = at.name};
@@ -138,7 +147,7 @@ void add_forced(const std::vector<NamedPoint>& stations, const Assembler& assemb
     }
     for (BearingResponse& at : bearing_responses(assembler, load, study.speeds)) {
       ForcedBearing of{std::move(at), load.label(), {}, {}};
-      (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
+      tell_frequency(load, of);
       study.forced_bearings.push_back(std::move(of));
     }
     const std::vector<CVec> told = readings_of(found, assembler);

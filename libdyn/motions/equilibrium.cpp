@@ -111,8 +111,9 @@ Vec equilibrium(const ContactSystem& system) {
     eta = held->rest + held->shapes * place->w;
     if (!any_pushes(system, *eta)) return *eta;
   }
-  const auto with_contacts =
-      system.contacts().size() == elements.size() ? std::nullopt : held_rotor(system, system.contacts());
+  const auto with_contacts = system.contacts().size() == elements.size()
+                                 ? std::nullopt
+                                 : held_rotor(system, system.contacts());
   if (with_contacts) {
     const PortBalance balance(*with_contacts, films, system.contacts());
     const auto place = eta ? balance.find(ports_at(system, *with_contacts, *eta)) : balance.find();

@@ -42,9 +42,8 @@ Run run_model(const Model& model, const RunOptions& options,
   simulated.method = method_for(scene.contacts, options.method);
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, options.stations);
   const Structure& s = model.structure;
-  const std::size_t supports =
-      s.bearings.size() + s.seals.size() + s.links.size() + model.films.size() +
-      rolling_bearings(model.contacts).size();
+  const std::size_t supports = s.bearings.size() + s.seals.size() + s.links.size() +
+                               model.films.size() + rolling_bearings(model.contacts).size();
   // a probe or the force on a support takes no more than a station
   const std::size_t written_stations = stations.size() + s.probes.size() + supports;
   const double bytes = bytes_of_sample(scene.contacts.coordinates(), model.contacts.size(),

@@ -52,11 +52,11 @@ class SupportLoads {
   void add_loads(const Assembler& assembler, const ContactSystem& system, const Sparse& rigid);
 
   std::vector<Part> parts_;
-  Mat K_, C_, M_;                           // 2 parts x coordinates
-  std::vector<ReducedExcitation> loads_;    // on rigid parts
-  std::vector<ContactShares> of_contacts_;  // of the model; empty: no part is rigid
-  std::vector<Share> of_films_;             // likewise
-  Eigen::Index first_film_ = 0;             // row
+  Mat K_, C_, M_;                               // 2 parts x coordinates
+  std::vector<ReducedExcitation> loads_;        // on rigid parts
+  std::vector<ContactShares> of_contacts_;      // of the model; empty: no part is rigid
+  std::vector<Share> of_films_;                 // likewise
+  Eigen::Index first_film_ = 0;                 // row
   std::vector<Eigen::Index> rows_of_bearings_;  // of all contacts; -1: of one with a stator
   bool has_rigid_ = false, needs_acceleration_ = false;
 };

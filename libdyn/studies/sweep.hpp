@@ -155,15 +155,15 @@ struct SweepResult {
                        .axis("sectors")
                        .maybe()},
         probe_label_columns(),
-        ColumnList{
-            column("probe_order", &C::probe_orders, "", "frequency over speed")
-                .axis("probe_orders+")
-                .within(valid::finite)
-                .maybe(),
-            column("support", &C::supports, "", "bearing, seal, link, oil film or rolling bearing with its name")
-                .axis("supports+")
-                .maybe(),
-            rows(&C::points, "point")});
+        ColumnList{column("probe_order", &C::probe_orders, "", "frequency over speed")
+                       .axis("probe_orders+")
+                       .within(valid::finite)
+                       .maybe(),
+                   column("support", &C::supports, "",
+                          "bearing, seal, link, oil film or rolling bearing with its name")
+                       .axis("supports+")
+                       .maybe(),
+                   rows(&C::points, "point")});
   }
 };
 

@@ -167,7 +167,7 @@ void sample_contact(const Samples& by, const ReducedContact& c, const Periodic& 
         const std::array<D, P> force = by.force(c, p, span.sign);
         for (int i = 0; i < P; ++i) g(i) = force[static_cast<std::size_t>(i)].value;
         samples.push_back(by.jump(g, p.gap.depth, rate, theta));
-      } else {  // friction turns round; each of the two spans takes its half
+      } else if (c.friction.is_exact()) {  // it turns round; each of two spans takes its half
         constexpr double h = 1e-6;
         const double by_theta = (path.at(theta + h).slip - path.at(theta - h).slip) / (2.0 * h);
         for (int i = 0; i < 2; ++i) {

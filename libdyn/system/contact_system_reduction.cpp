@@ -53,7 +53,7 @@ PlaneRows relative_rows(Closing closing, const DofMap& dofs, const Point& at,
 double rim_speed_of(const AnyGeometry& geometry, const PartSpeeds& speeds,
                     const Friction& friction) {
   const double past = (turns(geometry) ? 0.0 : speeds.at) - speeds.against;
-  return past * speeds.Omega * rim_radius_of(geometry).value_or(friction.radius);
+  return past * rim_radius_of(geometry).value_or(friction.radius);
 }
 
 /// A law with what follows from the operation: how much friction bends a blade.
@@ -74,8 +74,8 @@ PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const
 
 PartSpeeds part_speeds(const Contact& contact, const Assembler& assembler, double Omega) {
   // what touches is a rotor whether it says that it spins or not
-  return {Omega, assembler.shaft_ratio(assembler.point(contact.at)),
-          assembler.spin_ratio(assembler.point(contact.against))};
+  return {assembler.shaft_speed(assembler.point(contact.at), Omega),
+          assembler.spin_speed(assembler.point(contact.against), Omega), Clock(Omega).rate()};
 }
 
 /// What the equations of a reduced rotor are made with.
@@ -136,7 +136,7 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
                    .clearance = c.clearance,
                    .rim_speed = rim_speed_of(geometry, speeds, c.friction),
                    .friction = c.friction,
-                   .law = law_at(speeds.at * Omega(), c.law, c.friction),
+                   .law = law_at(speeds.at, c.law, c.friction),
                    .geometry = geometry,
                    .owner = owner};
   r.U = closing_rows(c, by.assembler, by.reduced.dofs) * by.reduced.Phi;
@@ -155,7 +155,8 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
 }
 
 void ContactSystem::add_film(const Reduction& by, const OilFilm& film) {
-  ReducedFilm r{at_speed(film, Omega(), drag_ratio(film, by.assembler)), film.name, {}, {}};
+  ReducedFilm r{
+      at_speed(film, Omega(), drag_speed(film, by.assembler, Omega())), film.name, {}, {}};
   r.U = relative_rows(Closing::lateral, by.reduced.dofs, by.assembler.point(film.at),
                       by.assembler.point(film.against)) *
         by.reduced.Phi;

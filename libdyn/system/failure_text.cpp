@@ -15,7 +15,8 @@ int deepest_place(const ContactSystem& system, const MotionState& state, int own
   double depth = -std::numeric_limits<double>::infinity();
   for (const ReducedContact& c : system.contacts()) {
     if (c.owner != owner) continue;
-    const double d = kinematics(c, {state.phase, state.revolution}, state.y.data(), system.layout()).depth;
+    const double d =
+        kinematics(c, {state.phase, state.revolution}, state.y.data(), system.layout()).depth;
     if (d <= depth) continue;
     depth = d;
     deepest = c.place;
@@ -32,7 +33,8 @@ std::string failure_text(const ContactSystem& system, const MotionState& state,
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const ReducedContact& c = system.contacts()[i];
     if (c.turns() && c.place != deepest_place(system, state, c.owner)) continue;
-    const ContactForces f = kinematics(c, {state.phase, state.revolution}, state.y.data(), system.layout());
+    const ContactForces f =
+        kinematics(c, {state.phase, state.revolution}, state.y.data(), system.layout());
     // inside a wall neither depth nor normal is told by a distance from it
     const bool is_inside = is_wall(c.geometry) && state.contacts[i].touch == Touch::apart;
     const double out = is_inside ? f.r / c.clearance : 1.0 + f.depth / c.clearance;

@@ -18,9 +18,9 @@ Vec2 place(const ReducedFilm& film, const double* y, StateLayout layout) {
 
 }  // namespace
 
-double drag_ratio(const OilFilm& film, const Assembler& assembler) {
-  return assembler.spin_ratio(assembler.point(film.at)) +
-         assembler.spin_ratio(assembler.point(film.against));
+double drag_speed(const OilFilm& film, const Assembler& assembler, double Omega) {
+  return assembler.spin_speed(assembler.point(film.at), Omega) +
+         assembler.spin_speed(assembler.point(film.against), Omega);
 }
 
 FilmAtSpeed at_speed(const OilFilm& film, double Omega, double drag) {
@@ -30,7 +30,7 @@ FilmAtSpeed at_speed(const OilFilm& film, double Omega, double drag) {
         return FilmAtSpeed{.offset = film.offset,
                            .clearance = film.bearing.clearance,
                            .factor = law.factor(film.bearing),
-                           .spin = law.is_dragged ? drag * (Omega / rate) : 0.0,
+                           .spin = law.is_dragged ? drag / rate : 0.0,
                            .rate = rate,
                            .law = film.law};
       },

@@ -21,12 +21,12 @@ struct FilmAtSpeed {
   AnyFilmLaw law;
 };
 
-/// What drags the oil of a film, over the speed of the first shaft: the sum of the speeds of both
-/// walls. Two walls that turn against each other at one speed drag none.
-double drag_ratio(const OilFilm& film, const Assembler& assembler);
+/// What drags the oil of a film, the sum of the speeds of both walls [rad/s]. Two walls that turn
+/// against each other at one speed drag none.
+double drag_speed(const OilFilm& film, const Assembler& assembler, double Omega);
 
 /// A film of a model at a speed [rad/s].
-/// @param drag  as drag_ratio() says
+/// @param drag  as drag_speed() says [rad/s]
 FilmAtSpeed at_speed(const OilFilm& film, double Omega, double drag);
 
 /// An oil film in reduced coordinates eta.

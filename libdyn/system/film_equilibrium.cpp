@@ -84,9 +84,10 @@ Ports ports_of(const std::vector<Held>& bearings, const Assembler& assembler, do
   const double s = largest > 0.0 ? largest : 1.0;
   const Sparse clamped = K + s * Sparse(U.transpose() * U);
   if (!is_supported(symmetric_part(clamped))) {
-    throw ModelError({}, "",
-                     "the rotor or a body is free to move, even where oil films and rolling bearings "
-                     "hold the journals: add a [[bearing]] or a [[link]] that holds it");
+    throw ModelError(
+        {}, "",
+        "the rotor or a body is free to move, even where oil films and rolling bearings "
+        "hold the journals: add a [[bearing]] or a [[link]] that holds it");
   }
   const SparseLu lu(held_matrix(K, U, s));
   if (!lu.is_regular()) throw NumericalError("the stiffness is singular at this speed");
@@ -140,7 +141,7 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
   }
   std::vector<FilmAtSpeed> at_this_speed;
   for (const OilFilm& film : films) {
-    at_this_speed.push_back(at_speed(film, Omega, drag_ratio(film, assembler)));
+    at_this_speed.push_back(at_speed(film, Omega, drag_speed(film, assembler, Omega)));
   }
   std::vector<ReducedContact> elements;
   for (const Contact& bearing : rolling) {
@@ -148,8 +149,7 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
       elements.push_back(std::move(e));
     }
   }
-  const auto place =
-      PortBalance(ports->held, std::move(at_this_speed), std::move(elements)).find();
+  const auto place = PortBalance(ports->held, std::move(at_this_speed), std::move(elements)).find();
   if (!place) throw NumericalError(not_found_on_films(Omega));
   RotorOnFilms rotor{.Omega = Omega,
                      .system = ports->system,
@@ -166,15 +166,14 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
   };
   for (std::size_t i = 0; i < films.size(); ++i) {
     rotor.films.push_back(
-        running_film(films[i], Omega, place->journals[i], drag_ratio(films[i], assembler)));
+        running_film(films[i], Omega, place->journals[i], drag_speed(films[i], assembler, Omega)));
     carry(films[i], rotor.films.back().load);
   }
   std::size_t port = films.size();
   for (const Contact& bearing : rolling) {
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(port);
     const Vec2 u = ports->held.ports.of.middleRows<2>(row) * place->w;
-    rotor.rolling.push_back(
-        running_bearing(bearing, u, part_speeds(bearing, assembler, Omega)));
+    rotor.rolling.push_back(running_bearing(bearing, u, part_speeds(bearing, assembler, Omega)));
     carry(bearing, rotor.rolling.back().load);
     port += static_cast<std::size_t>(places_of(bearing.geometry));
   }

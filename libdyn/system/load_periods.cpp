@@ -114,7 +114,13 @@ std::optional<double> load_period(const ContactSystem& system) {
 bool loads_repeat(const ContactSystem& system) {
   if (system.repeats_after() > 0) return true;
   std::vector<double> ratios = ratios_of(system);
-  if (follows_the_speed(system)) ratios.push_back(1.0);
+  if (!system.synchronous_load().is_zero()) ratios.push_back(1.0);
+  for (const ReducedContact& c : system.contacts()) {
+    if (c.place > 0) continue;  // as the first
+    for (const double ratio : repeating_ratios_of(c.geometry)) {
+      if (ratio != 0.0) ratios.push_back(std::abs(ratio));
+    }
+  }
   return std::all_of(ratios.begin(), ratios.end(), [&](double ratio) {
     return denominator_of(ratio / ratios[0], most_chance) > 0;
   });

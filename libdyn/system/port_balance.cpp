@@ -17,8 +17,8 @@ namespace {
 
 constexpr double dependent = 1e-9;  ///< of a row, what the rows before it leave of it
 
-/// About where the inner ring of a bearing is under a load: where the first element would be as deep
-/// as all of them together carry, about a quarter of them.
+/// About where the inner ring of a bearing is under a load: where the first element would be as
+/// deep as all of them together carry, about a quarter of them.
 Vec2 place_on_elements(const ReducedContact& element, const Vec2& load) {
   const geometry::RollingElements& row = *rolling_elements(element.geometry);
   if (!(load.norm() > 0.0)) return element.offset;
@@ -196,8 +196,10 @@ PortBalance::At PortBalance::look(const Vec& x, double share) const {
 }
 
 std::string not_found_on_films(double Omega) {
-  return fmt::format("the equilibrium of the rotor on its oil films or rolling bearings was not found at {:.6g} rpm{}",
-                     Omega / rpm, Omega == 0.0 ? ": without speed a film carries nothing" : "");
+  return fmt::format(
+      "the equilibrium of the rotor on its oil films or rolling bearings was not found at {:.6g} "
+      "rpm{}",
+      Omega / rpm, Omega == 0.0 ? ": without speed a film carries nothing" : "");
 }
 
 }  // namespace whirl::inline dyn

@@ -20,8 +20,8 @@ struct RestingRotor {
   std::vector<BearingLoad> journal_loads(const Model& model) const;
 };
 
-/// The static equilibrium of a model at a speed [rad/s]; films carry as at that speed, contacts with
-/// stators are left out.
+/// The static equilibrium of a model at a speed [rad/s]; films carry as at that speed, contacts
+/// with stators are left out.
 /// @throws ModelError      as static_equilibrium
 /// @throws NumericalError  as FilmEquilibrium::at
 RestingRotor resting_rotor(const Model& model, const Assembler& assembler, double Omega);

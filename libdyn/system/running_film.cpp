@@ -29,7 +29,7 @@ RunningFilm running_film(const OilFilm& film, double Omega, const Vec2& place, d
   running.thickness = c - p.norm();
   const bool is_loaded = !W.isZero(0.0);
   running.attitude = is_loaded ? std::atan2(cross, W.dot(p)) : nan;
-  const double spin = at.spin == 0.0 ? 0.0 : std::abs(drag * Omega);
+  const double spin = at.spin == 0.0 ? 0.0 : std::abs(drag);
   const double turns = spin / (2.0 * std::numbers::pi);
   running.sommerfeld = is_loaded && spin > 0.0
                            ? viscosity * turns * 2.0 * R * L / W.norm() * (R / c) * (R / c)

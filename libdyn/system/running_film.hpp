@@ -93,6 +93,11 @@ struct RunningFilms {
 /// P is the loss of a film that is full all around: it is not less where a real film is not full.
 ///
 /// @source [PinkusSternlicht1961]
-RunningFilm running_film(const OilFilm& film, double Omega, const Vec2& place, double drag = 1.0);
+/// @param drag  as drag_speed() says [rad/s]
+RunningFilm running_film(const OilFilm& film, double Omega, const Vec2& place, double drag);
+/// The same of a bearing that stands.
+inline RunningFilm running_film(const OilFilm& film, double Omega, const Vec2& place) {
+  return running_film(film, Omega, place, Omega);
+}
 
 }  // namespace whirl::inline dyn

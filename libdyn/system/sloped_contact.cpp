@@ -71,9 +71,8 @@ ContactGap<ByParameter> SlopedContact::gap(const Instant& at, GapMotion<ByParame
       m.w[i].slopes += along(k) * tip_speed.slopes - e(k) * tip_speed.value * gone.slopes;
     }
   }
-  ContactGap<ByParameter> g =
-      std::visit([&](const auto& geometry) { return geometry.gap(contact.space(), at, m); },
-                 contact.geometry);
+  ContactGap<ByParameter> g = std::visit(
+      [&](const auto& geometry) { return geometry.gap(contact.space(), at, m); }, contact.geometry);
   g.depth.slopes -= clearance.slopes + tip.slopes;  // tips touch at clearance + tip
   g.slip.slopes += rim_speed.slopes;
   const Vec2 turned(-turned_normal(1), turned_normal(0));  // of t
@@ -122,9 +121,10 @@ SlopedContact sloped_contact(const ContactSystem& system, std::size_t i,
       const auto of_shape = [&](double geometry::RaceShape::*member) {
         return of_row([=](const auto& r) { return r.shapes[k].*member; });
       };
-      to.shapes.push_back({of_shape(&geometry::RaceShape::height), of_shape(&geometry::RaceShape::start),
-                           of_shape(&geometry::RaceShape::ratio), of_shape(&geometry::RaceShape::speed),
-                           of_shape(&geometry::RaceShape::sharpness)});
+      to.shapes.push_back(
+          {of_shape(&geometry::RaceShape::height), of_shape(&geometry::RaceShape::start),
+           of_shape(&geometry::RaceShape::ratio), of_shape(&geometry::RaceShape::speed),
+           of_shape(&geometry::RaceShape::sharpness)});
     }
   }
   to.turned_normal = slopes.of([i](const ContactSystem& s) -> Vec2 {

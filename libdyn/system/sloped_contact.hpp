@@ -24,17 +24,17 @@ struct SlopedContact {
   ByParameter clearance;              ///< [m]
   ByParameter rim_speed;              ///< [m/s]
   ByParameter mu;
-  ByParameter tolerance;          ///< of a smoothed sign of the slip [m/s]
-  ByParameter tip;                ///< radius of a place about the rotor's axis [m]
-  ByParameter tip_speed;          ///< speed of that place [m/s]
-  ByParameter turning;            ///< speed of what turns [rad/s]
-  ByParameter ratio;              ///< of that to the rate of the phase
-  ByParameter start, play;        ///< of a rolling element: its angle at time 0 [rad]; [m]
+  ByParameter tolerance;    ///< of a smoothed sign of the slip [m/s]
+  ByParameter tip;          ///< radius of a place about the rotor's axis [m]
+  ByParameter tip_speed;    ///< speed of that place [m/s]
+  ByParameter turning;      ///< speed of what turns [rad/s]
+  ByParameter ratio;        ///< of that to the rate of the phase
+  ByParameter start, play;  ///< of a rolling element: its angle at time 0 [rad]; [m]
   /// What an element sees of a shape of a race, as RaceShape.
   struct Shape {
     ByParameter height, start, ratio, speed, sharpness;
   };
-  std::vector<Shape> shapes;  ///< of the races of rolling elements
+  std::vector<Shape> shapes;      ///< of the races of rolling elements
   Vec2 turned_normal;             ///< derivative of a stop's direction, else zero
   WallNumbers<ByParameter> wall;  ///< of a wall
 

@@ -12,18 +12,21 @@ namespace {
 
 constexpr int fewest_angles = 256;      ///< angles a revolution at which events are looked for
 constexpr int angles_per_harmonic = 8;  ///< and of a harmonic
+constexpr double whole = 1e-9;          ///< turns of a contact that count as whole ones
 constexpr double sharpest = 1e-15;      ///< of a turn: how well events are known
 
 }  // namespace
 
 ContactPath::ContactPath(const ReducedContact& contact, const Periodic& motion)
     : contact_(contact), motion_(motion) {
+  const double turns = turning_ratio_of(contact.geometry) * motion.period;
+  closes_ = std::abs(turns - std::round(turns)) < whole;
   stiffness_ = normal_force(contact.law, contact.clearance, 0.0) / contact.clearance;
   const int N = std::max(fewest_angles * motion.period, angles_per_harmonic * motion.harmonics());
   angles_.reserve(static_cast<std::size_t>(N) + 1);
   for (int i = 0; i <= N; ++i) {
     angles_.push_back(turn * i / N);
-    grid_.push_back(i < N ? at(angles_.back()) : grid_.front());
+    grid_.push_back(i < N || !closes_ ? at(angles_.back()) : grid_.front());
   }
 }
 
@@ -56,9 +59,10 @@ std::vector<double> ContactPath::zeros(const std::function<double(const ContactF
     const double here = f(grid_[i]), next = f(grid_[i + 1]);
     const double a = angles_[i], b = angles_[i + 1];
     // a short touch between two angles: the top of a parabola through three of them
-    const double last = f(grid_[i == 0 ? N - 1 : i - 1]);
+    const bool is_first = i == 0 && !closes_;
+    const double last = is_first ? here : f(grid_[i == 0 ? N - 1 : i - 1]);
     const double bend = last - 2.0 * here + next, slope = 0.5 * (next - last);
-    if (looks_between && here < 0.0 && next < 0.0 && last < 0.0 && bend < 0.0 &&
+    if (looks_between && !is_first && here < 0.0 && next < 0.0 && last < 0.0 && bend < 0.0 &&
         std::abs(slope) < -bend && here - 0.5 * slope * slope / bend > 0.0) {
       const double top = a - slope / bend * (b - a), at_top = value(top);
       const bool is_known = std::any_of(tops.begin(), tops.end(), [&](double known) {
@@ -77,12 +81,29 @@ std::vector<double> ContactPath::zeros(const std::function<double(const ContactF
   return found;
 }
 
+/// Spans of what does not close, each from an event or the beginning to an event or the end.
+std::vector<ContactPath::Span> ContactPath::spans_between(
+    const std::vector<double>& touches) const {
+  std::vector<Span> spans;
+  double from = 0.0;
+  for (std::size_t i = 0; i <= touches.size(); ++i) {
+    const bool is_last = i == touches.size();
+    const double to = is_last ? turn : touches[i];
+    if (to > from && gap(at(0.5 * (from + to))) > 0.0) {
+      spans.push_back({from, to, 1.0, i > 0, !is_last});
+    }
+    from = to;
+  }
+  return spans;
+}
+
 std::vector<ContactPath::Span> ContactPath::spans() const {
   const std::vector<double> touches = zeros([this](const auto& f) { return gap(f); }, true);
   std::vector<double> reversals;
   if (contact_.friction.is_exact()) {
     reversals = zeros([](const auto& f) { return f.slip; }, false);
   }
+  if (!closes_) return spans_between(touches);
   std::vector<Span> spans;
   if (touches.empty() && reversals.empty()) {
     if (gap(grid_.front()) > 0.0) {

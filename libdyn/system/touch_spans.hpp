@@ -32,12 +32,16 @@ class ContactPath {
 
  private:
   double gap(const ContactForces& f) const;
+  std::vector<Span> spans_between(const std::vector<double>& touches) const;
   /// Angles where a function of the forces changes its sign, ascending.
   std::vector<double> zeros(const std::function<double(const ContactForces&)>& f,
                             bool looks_between) const;
 
   const ReducedContact& contact_;
   const Periodic& motion_;
+  /// Whether the contact is at the end where it began; an element of a rolling bearing may be where
+  /// another one was.
+  bool closes_;
   double stiffness_;  ///< that makes forces comparable with depths [N/m]
   std::vector<double> angles_;
   std::vector<ContactForces> grid_;

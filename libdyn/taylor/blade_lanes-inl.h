@@ -22,8 +22,8 @@ namespace HWY_NAMESPACE {
 ///   d = u + R (cos a e + sin a f),
 ///   d . d - (R + c)^2 = u . u + 2 R (cos a u . e + sin a u . f) - c (2 R + c)
 ///
-/// in which the large R^2 do not appear: a blade costs one line, and keeps its digits. An element of
-/// a rolling bearing is a blade of infinite length, n . u = cos a u . e + sin a u . f.
+/// in which the large R^2 do not appear: a blade costs one line, and keeps its digits. An element
+/// of a rolling bearing is a blade of infinite length, n . u = cos a u . e + sin a u . f.
 template <class P>
 struct BladeLanes {
   using Number = typename P::Number;
@@ -53,7 +53,9 @@ struct BladeLanes {
     set_start_angle(begin, l, turning_ratio_of(from.geometry), revolution);
   }
 
-  HWY_ATTR void start(const P& time) { sin_cos(fma(turns, rate * time, begin), sine[0], cosine[0]); }
+  HWY_ATTR void start(const P& time) {
+    sin_cos(fma(turns, rate * time, begin), sine[0], cosine[0]);
+  }
 
   /// Coefficient k of all, from those of u, which stand in ux[k] and uy[k].
   HWY_ATTR void extend(int k) {

@@ -36,8 +36,8 @@ inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
 ///
 /// Of a plane d is its normal, r is one, and s, else the square of the distance, is how far the
 /// rotor is beyond it. Of a wall d is the slope of the depth, r is one, and s is beyond zero where
-/// the rotor is beyond the wall. Of a rolling element d is its direction, which turns, r is one, and s
-/// is how far it is pressed.
+/// the rotor is beyond the wall. Of a rolling element d is its direction, which turns, r is one,
+/// and s is how far it is pressed.
 template <class P>
 struct ContactLanes {
   using Number = typename P::Number;
@@ -51,13 +51,13 @@ struct ContactLanes {
   P force_scale{1.0}, slip_scale{1.0};
   P least_depth{0.0};  // at the start of a step, see depth()
   AnyContactLaw<P> law;
-  std::vector<P> ux, uy;                              // per of_x, of_y
-  std::vector<P> bx, by;                              // per pushed_by_x, pushed_by_y
-  std::unique_ptr<RubLanes<P>> rub;                   // where friction acts elsewhere, or a normal
-  P plane_at{0.0};                                    // n . u of a plane; play of an element
-  std::unique_ptr<WallLanes<P>> wall;                 // of a wall
-  const BladeLanes<P>* disk = nullptr;       // of what turns, what it shares with the others
-  std::unique_ptr<ShapeLanes<P>> shapes;     // of an element, where its races are not round
+  std::vector<P> ux, uy;                  // per of_x, of_y
+  std::vector<P> bx, by;                  // per pushed_by_x, pushed_by_y
+  std::unique_ptr<RubLanes<P>> rub;       // where friction acts elsewhere, or a normal
+  P plane_at{0.0};                        // n . u of a plane; play of an element
+  std::unique_ptr<WallLanes<P>> wall;     // of a wall
+  const BladeLanes<P>* disk = nullptr;    // of what turns, what it shares with the others
+  std::unique_ptr<ShapeLanes<P>> shapes;  // of an element, where its races are not round
   P blade_cosine{1.0}, blade_sine{0.0}, excess{0.0};  // of its angle; d . d - clearance^2 at first
   uint64_t continuous = 0, damped = 0, exact = 0, smooth = 0;
 

@@ -114,9 +114,9 @@ HWY_ATTR void Engine<P>::end_revolutions(uint64_t ends, bool is_observed) {
     LaneRecord& record = records_[static_cast<size_t>(l)];
     ++record.revolution;
     ++watch_.revolutions;
-    if (motion_.counts_revolutions()) {
-      motion_.begin_revolution(*record.trajectory->system, lane(motion_.clock.rate, l),
-                               record.revolution, l);
+    if (counts_revolutions(motion_)) {
+      tell_revolution(motion_, *record.trajectory->system, lane(motion_.clock.rate, l),
+                      record.revolution, l);
       if constexpr (carries_slopes<P>) slopes_->begin_revolution(record.revolution);
     }
     remove_slip(motion_, *record.trajectory->system, l);

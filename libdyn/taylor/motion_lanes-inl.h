@@ -77,8 +77,6 @@ struct MotionLanes {
   }
   /// Whether the kernel of bodies can make this step.
   bool is_rotor_in_stator() const { return pattern.bodies == 2 && !contacts[0].any_has_tau; }
-  /// Whether anything asks in which revolution a motion is.
-  bool counts_revolutions() const { return !equations.other_loads.empty() || !disks.empty(); }
   bool any_sticks() const {
     return std::any_of(contacts.begin(), contacts.end(),
                        [&](const ContactLanes<P>& c) { return (c.sticking & active) != 0; });
@@ -86,13 +84,26 @@ struct MotionLanes {
 
   HWY_ATTR void load(const ContactSystem& s, const MotionState& at, int l);
   HWY_ATTR void load_system(const ContactSystem& s, const MotionState& at, int l);
-  HWY_ATTR void begin_revolution(const ContactSystem& s, Number rate, long revolution, int l);
   HWY_ATTR Vec state_of(int l) const;
   HWY_ATTR void set_state(int l, const Vec& of_lane);
   HWY_ATTR ContactStates contacts_of(int l) const;
   template <int Bodies>
   HWY_ATTR void evaluate(const P* series, const P& h, P* to) const;
 };
+
+/// Whether anything asks in which revolution a motion is.
+template <class P>
+bool counts_revolutions(const MotionLanes<P>& m) {
+  return !m.equations.other_loads.empty() || !m.disks.empty();
+}
+
+/// Tells all that counts revolutions that a lane begins one.
+template <class P>
+HWY_ATTR void tell_revolution(MotionLanes<P>& m, const ContactSystem& s, typename P::Number rate,
+                              long revolution, int l) {
+  m.equations.begin_revolution(s, rate, revolution, l);
+  begin_turning(m.disks, m.contacts, s, revolution, l);
+}
 
 /// A motion into a lane; its contacts are known.
 template <class P>
@@ -118,15 +129,7 @@ HWY_ATTR void MotionLanes<P>::load_system(const ContactSystem& s, const MotionSt
   const Number rate = clock.load(s, at.phase, l);
   for (size_t i = 0; i < films.size(); ++i) films[i]->load(s.films()[i], l);
   for (const auto& disk : disks) disk->load(s.contacts()[disk->first], l, rate);
-  begin_revolution(s, rate, at.revolution, l);
-}
-
-/// Tells all that knows it that a lane begins a revolution.
-template <class P>
-HWY_ATTR void MotionLanes<P>::begin_revolution(const ContactSystem& s, Number rate, long revolution,
-                                               int l) {
-  equations.begin_revolution(s, rate, revolution, l);
-  begin_turning(disks, contacts, s, revolution, l);
+  tell_revolution(*this, s, rate, at.revolution, l);
 }
 
 /// State in a lane, rounded to double.

@@ -135,7 +135,8 @@ Pattern begin_pattern(const ContactSystem& first) {
 void require_alike(const Pattern::ContactRows& rows, const ReducedContact& contact,
                    const ReducedContact& first) {
   if (contact.owner != first.owner) {
-    throw NumericalError("the systems of a batch must have as many blades or elements at their contacts");
+    throw NumericalError(
+        "the systems of a batch must have as many blades or elements at their contacts");
   }
   if (contact.law.index() != rows.law) {
     throw NumericalError("the systems of a batch must have the same laws at their contacts");

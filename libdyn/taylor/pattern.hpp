@@ -29,11 +29,11 @@ struct Pattern {
     /// Where friction acts elsewhere: coordinates whose rates are in the slip, that it accelerates.
     std::vector<int> slips_by_x, slips_by_y, rubbed_x, rubbed_y;
     bool rubs_apart = false;
-    bool is_plane = false;  ///< it is met in one direction, which does not change
-    bool is_wall = false;   ///< it is met on a curve that is no circle
+    bool is_plane = false;    ///< it is met in one direction, which does not change
+    bool is_wall = false;     ///< it is met on a curve that is no circle
     bool is_rolling = false;  ///< it is an element of a rolling bearing
-    int group = -1;         ///< of places that turn, in turning
-    bool has_rate = false;  ///< the law depends on the rate of the depth
+    int group = -1;           ///< of places that turn, in turning
+    bool has_rate = false;    ///< the law depends on the rate of the depth
     bool has_friction = false;
     bool has_smooth_friction = false;  ///< tanh of the slip
     std::size_t law = 0;               ///< index in AnyContactLaw

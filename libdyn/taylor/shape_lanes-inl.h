@@ -32,7 +32,8 @@ struct ShapeLanes {
   P longest{boundless};  ///< step in which the series of all heights are good [s]
 
   explicit ShapeLanes(const geometry::RollingElements& of) {
-    for (const geometry::RaceShape& shape : of.shapes) all.emplace_back().is_spall = shape.is_spall();
+    for (const geometry::RaceShape& shape : of.shapes)
+      all.emplace_back().is_spall = shape.is_spall();
   }
 
   HWY_ATTR void load(const ReducedContact& from, typename P::Number rate_of_phase, int l) {
@@ -48,7 +49,8 @@ struct ShapeLanes {
   }
   HWY_ATTR void begin_revolution(const ReducedContact& from, long revolution, int l) {
     for (size_t i = 0; i < all.size(); ++i) {
-      set_start_angle(all[i].begin, l, rolling_elements(from.geometry)->shapes[i].ratio, revolution);
+      set_start_angle(all[i].begin, l, rolling_elements(from.geometry)->shapes[i].ratio,
+                      revolution);
     }
   }
   HWY_ATTR void start(const P& time) {

@@ -113,8 +113,8 @@ HWY_ATTR void SlopeCarrier<P, true>::begin_revolution(long revolution) {
     if (!columns[c].parameter) continue;
     const auto& neighbors = columns[c].parameter->neighbors;
     for (size_t j = 0; j < neighbors.size(); ++j) {
-      m_.begin_revolution(neighbors[j], neighbors[j].phase_rate(), revolution,
-                                    lane_of_neighbor(static_cast<int>(c), static_cast<int>(j)));
+      tell_revolution(m_, neighbors[j], neighbors[j].phase_rate(), revolution,
+                      lane_of_neighbor(static_cast<int>(c), static_cast<int>(j)));
     }
   }
 }

@@ -162,7 +162,7 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
   Eigen::Index at = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const MeshElement& element = mesh.elements[e];
-    const double speed = shafts[static_cast<std::size_t>(element.shaft)].ratio * Omega;
+    const double speed = shafts[static_cast<std::size_t>(element.shaft)].speed_at(Omega);
     const std::vector<Beam> beams = beams_along(e, assembler.structure(), mesh);
     const Beam& beam = beams.front();  // of the shaft itself; it alone has functions of its own
     const auto matrices = whirl::matrices(beam);

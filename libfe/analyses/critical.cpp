@@ -183,6 +183,11 @@ std::string Critical::excitation() const {
 }
 
 std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options) {
+  if (const Rotor* rotor = assembler.structure().rotor_of_own_speed()) {
+    throw ModelError(rotor->where, "rotor." + rotor->name,
+                     "undamped critical speeds need shafts of constant ratios, but this one has a "
+                     "speed of its own: campbell tells where modes meet the speeds");
+  }
   require_supports(assembler, options.start, "critical speeds need");
   std::vector<Critical> criticals = undamped_criticals(assembler.at(options.start), options);
   if (assembler.depends_on_speed()) {

@@ -19,7 +19,6 @@
 #include "libfe/mesh/elements/gear.hpp"
 #include "libfe/mesh/rigid_ties.hpp"
 #include "libfe/mesh/shaft_elements.hpp"
-#include "libfe/parts/bow.hpp"
 #include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
@@ -184,6 +183,12 @@ void add_gears(const Structure& structure, const Mesh& mesh, const DofMap& dofs,
     const Point driven = resolve(gears.driven, structure, mesh);
     const double speed = spin_ratio(driving, structure, mesh);
     const double other = spin_ratio(driven, structure, mesh);
+    for (const Point& wheel : {driving, driven}) {
+      if (!std::isnan(shaft_ratio(wheel, structure, mesh))) continue;
+      throw ModelError(gears.where, gears.name,
+                       "one of its shafts has a speed of its own; expected a ratio, as teeth make "
+                       "it");
+    }
     const double by_radii = -speed * gears.driving_radius / gears.driven_radius;
     if (speed == 0.0 || std::abs(other - by_radii) > rounding * std::abs(by_radii)) {
       throw ModelError(gears.where, gears.name,
@@ -193,6 +198,29 @@ void add_gears(const Structure& structure, const Mesh& mesh, const DofMap& dofs,
                                    speed, other, by_radii));
     }
     to.add(matrices(gears, speed > 0.0 ? 1.0 : -1.0), indices(dofs, driving, driven));
+  }
+}
+
+/// Adds what the spin of a shaft makes at a speed [rad/s] to what does not depend on that of the
+/// first one.
+void add_spin(const SpinPart<Sparse>& spin, double speed, EquationsOfMotion<Sparse>& to) {
+  to.C += speed * spin.G;
+  to.K += speed * spin.H;
+}
+
+/// Adds what shafts of one own speed make by it; those whose own speeds change are taken apart.
+void take_own_spins(const Structure& structure, EquationsOfMotion<Sparse>& equations,
+                    std::vector<std::pair<std::size_t, SpinPart<Sparse>>>& changing) {
+  for (std::size_t i = 0; i < structure.rotors.size(); ++i) {
+    const Rotor& rotor = structure.rotors[i];
+    if (!rotor.has_own_speed()) continue;
+    SpinPart<Sparse>& part = equations.spin_parts[i + 1];  // the first is the first shaft
+    if (rotor.own.size() == 1) {
+      add_spin(part, rotor.own.front(), equations);
+    } else {
+      changing.emplace_back(i, part);
+    }
+    part.G.setZero(), part.H.setZero();
   }
 }
 
@@ -241,7 +269,9 @@ Assembler::Assembler(Structure structure)
   DofMap& dofs = made->dofs;
   dofs = freedoms_of_points(*structure_, made->mesh);
   std::vector<double> ratios;
-  for (const Structure::Shaft& shaft : structure_->shafts()) ratios.push_back(shaft.ratio);
+  for (const Structure::Shaft& shaft : structure_->shafts()) {
+    ratios.push_back(shaft.has_own_speed() ? 0.0 : shaft.ratio);
+  }
   Collector collector(std::move(ratios));
   add_rotor(*structure_, made->mesh, dofs, collector);
   add_gears(*structure_, made->mesh, dofs, collector);
@@ -262,6 +292,8 @@ Assembler::Assembler(Structure structure)
     }
   }
   made->fixed = {collector.M(n), collector.C(n), collector.K(n), collector.spins(n)};
+  take_own_spins(*structure_, made->fixed, made->own_spins);
+  if (!made->own_spins.empty()) made->tables_depend_on_speed = true;
   if (!structure_->linearized.empty()) made->tables_depend_on_speed = true;
   const bool has_supports = !structure_->supports.empty();
   if (!structure_->modal_damping.ratios.empty()) {
@@ -290,6 +322,9 @@ Assembler::FullEquations Assembler::full(double Omega, double omega) const {
   interruption_point();
   FullEquations f = assembled_->fixed;
   f.Omega = Omega;
+  for (const auto& [rotor, spin] : assembled_->own_spins) {
+    add_spin(spin, structure_->rotors[rotor].speed_at(Omega), f);
+  }
   Collector collector;
   bool any = false;
   for (const auto& [kind, list] : structure_->connections()) {
@@ -366,56 +401,10 @@ std::vector<bool> Assembler::touched_by_whirl() const {
   return touched;
 }
 
-Vec Assembler::gravity_load() const {
-  return inertia_load({0.0, -structure_->gravity});
-}
-
-Vec Assembler::inertia_load(const Vec2& a) const {
-  Vec acceleration = Vec::Zero(dofs().full_size);
-  for (const Point& p : dofs().points()) {
-    for (const int component : {X, Y}) acceleration(dofs().full_index(p, component)) = a(component);
-  }
-  return assembled_->weighing * acceleration;
-}
-
 BearingCoefficients Assembler::coefficients_of(const Connection& connection, double Omega,
                                                double omega) const {
-  const double speed = std::abs(shaft_ratio(point(connection.from))) * Omega;
+  const double speed = std::abs(shaft_speed(point(connection.from), Omega));
   return coefficients(connection.coefficients, speed, omega);
-}
-
-CVec Assembler::unbalance(double ratio) const {
-  CVec u = CVec::Zero(dofs().full_size);
-  for (const Unbalance& unbalance : structure_->unbalances) {
-    const Point p = point(unbalance.at);
-    if (shaft_ratio(p) != ratio) continue;
-    const Complex amplitude = std::polar(unbalance.moment, unbalance.phase);
-    u(dofs().full_index(p, X)) += amplitude;
-    u(dofs().full_index(p, Y)) += Complex(0.0, -1.0) * amplitude;
-  }
-  return u;
-}
-
-CVec Assembler::bow() const {
-  CVec force = CVec::Zero(dofs().full_size);
-  const std::vector<BowState> states = bow_states(structure_->bow, mesh().z);
-  if (states.empty()) return force;
-  // x + i y = r turns with the shaft: u_x = r, u_y = -i r, and theta_y = x', theta_x = -y'
-  CVec displacement = CVec::Zero(dofs().full_size);
-  for (int i = 0; i < mesh().nodes(); ++i) {
-    const auto& [r, slope] = states[static_cast<std::size_t>(i)];
-    displacement.segment<4>(4 * i) << r, Complex(0.0, -1.0) * r, Complex(0.0, 1.0) * slope, slope;
-  }
-  for (std::size_t e = 0; e < mesh().elements.size(); ++e) {
-    const std::vector<int> index = indices(dofs(), {Point::Kind::node, mesh().elements[e].left},
-                                           {Point::Kind::node, mesh().elements[e].right});
-    for (Beam beam : beams_along(e, *structure_, mesh())) {
-      beam.axial_force = beam.torque = 0.0;  // these act along the true line, not the unbent one
-      const Mat K = matrices(beam).K.topLeftCorner<8, 8>();
-      force(index) += K * displacement(index);
-    }
-  }
-  return force;
 }
 
 System assemble(const Structure& structure, double Omega) {

@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "libfe/eigen/equations_of_motion.hpp"
 #include "libfe/mesh/dofs.hpp"
@@ -12,6 +14,7 @@ namespace whirl::inline fe {
 
 struct BearingCoefficients;
 struct Connection;
+struct Rotor;
 struct Structure;
 
 /// The equations of motion of a structure at a speed, n x n.
@@ -38,12 +41,12 @@ class Assembler {
   /// Of the coordinates that supports leave, nothing condensed.
   const DofMap& dofs() const { return assembled_->dofs; }
   Point point(const Station& station) const { return resolve(station, *structure_, mesh()); }
-  /// Speeds over that of the first shaft, see mesh.hpp.
-  double shaft_ratio(const Point& point) const {
-    return whirl::shaft_ratio(point, *structure_, mesh());
+  /// Speeds where the first shaft has a speed [rad/s], see mesh.hpp.
+  double shaft_speed(const Point& point, double Omega) const {
+    return whirl::shaft_speed(point, *structure_, mesh(), Omega);
   }
-  double spin_ratio(const Point& point) const {
-    return whirl::spin_ratio(point, *structure_, mesh());
+  double spin_speed(const Point& point, double Omega) const {
+    return whirl::spin_speed(point, *structure_, mesh(), Omega);
   }
   /// Coefficients of a bearing, seal or link, at the speed of the shaft that it is on.
   BearingCoefficients coefficients_of(const Connection& connection, double Omega,
@@ -87,6 +90,8 @@ class Assembler {
   /// @param ratio  of the speed of the shafts whose unbalance counts to that of the first one; f(t)
   ///               goes with ratio Omega in place of Omega
   CVec unbalance(double ratio = 1.0) const;
+  /// The same of a shaft whose speed is its own; f(t) goes with that speed.
+  CVec unbalance_of(const Rotor& rotor) const;
 
   /// Complex amplitude of the force that holds a straight shaft in its bow, a full vector
   /// [N, N.m]: f(t) = Re(f exp(i Omega t)), f = K_shaft bow, with the elastic stiffness of segments
@@ -106,8 +111,10 @@ class Assembler {
   /// What loads do not change: structures that differ in loads alone share it.
   struct Assembled {
     Mesh mesh;
-    DofMap dofs;             // supports eliminated, nothing condensed
-    FullEquations fixed;     // all that does not depend on speed
+    DofMap dofs;          // supports eliminated, nothing condensed
+    FullEquations fixed;  // all that does not depend on speed
+    /// What shafts whose own speeds change add to it, with their numbers among the rotors.
+    std::vector<std::pair<std::size_t, SpinPart<Sparse>>> own_spins;
     FullEquations supports;  // what their states add; empty: none have any
     Sparse modal;            // damping of modes at rest; empty: none
     Sparse weighing;         // inertia that has weight, of the full vector
@@ -115,6 +122,8 @@ class Assembler {
     bool depends_on_whirl = false;
   };
   std::vector<bool> touched_by_whirl() const;
+  /// @param counts  of each shaft, whether its unbalance does
+  CVec unbalance_of_shafts(const std::vector<bool>& counts) const;
   System system_of(const FullEquations& f, const Sparse& T) const;
 
   std::shared_ptr<const Structure> structure_;

@@ -42,7 +42,7 @@ std::vector<double> other_unbalanced_ratios(const Structure& structure) {
   const Mesh mesh = make_mesh(structure);
   for (const Unbalance& u : structure.unbalances) {
     const double ratio = shaft_ratio(resolve(u.at, structure, mesh), structure, mesh);
-    if (ratio == 1.0 || ratio == 0.0) continue;
+    if (ratio == 1.0 || ratio == 0.0 || std::isnan(ratio)) continue;
     if (std::ranges::find(ratios, ratio) == ratios.end()) ratios.push_back(ratio);
   }
   std::ranges::sort(ratios);
@@ -66,6 +66,17 @@ std::vector<Excitation> other_unbalances(const Assembler& assembler) {
                    .amplitude = std::move(amplitude),
                    .names = names});
   }
+  for (const Rotor& rotor : assembler.structure().rotors) {
+    if (!rotor.has_own_speed()) continue;
+    CVec amplitude = assembler.unbalance_of(rotor);
+    if (amplitude.isZero(0.0)) continue;
+    if (rotor.own.front() < 0.0) amplitude = amplitude.conjugate().eval();
+    all.push_back({.frequency = rotor.own.size() == 1 ? std::abs(rotor.own.front()) : 0.0,
+                   .growth = Growth::unbalance,
+                   .amplitude = std::move(amplitude),
+                   .names = "unbalance of " + rotor.name,
+                   .rotor = &rotor});
+  }
   return all;
 }
 
@@ -75,7 +86,19 @@ bool any_of(const Structure& s, bool (Force::*is)() const) {
 
 }  // namespace
 
+double Excitation::growth_at(double Omega) const {
+  if (growth == Growth::none) return 1.0;
+  const double speed = rotor ? frequency_at(Omega) : Omega;
+  return speed * speed;
+}
+
+double Excitation::frequency_at(double Omega) const {
+  if (rotor) return std::abs(rotor->speed_at(Omega));
+  return order > 0.0 ? order * Omega : frequency;
+}
+
 std::string Excitation::label() const {
+  if (rotor) return "speed of " + rotor->name;
   if (order > 0.0) return fmt::format("{:.6g}x", order);
   return fmt::format("{:.6g} Hz", frequency / (2.0 * std::numbers::pi));
 }
@@ -122,11 +145,12 @@ std::vector<Excitation> synchronous_excitations(const Assembler& assembler) {
 
 std::vector<Excitation> other_excitations(const Assembler& assembler) {
   // orders come before frequencies
-  std::map<std::tuple<bool, double, Growth>, Excitation> all;
+  std::map<std::tuple<bool, double, Growth, std::string>, Excitation> all;
   const auto add = [&](const Excitation& own) {
     const bool has_order = own.order > 0.0;
-    const auto [at, is_new] =
-        all.try_emplace({!has_order, has_order ? own.order : own.frequency, own.growth}, own);
+    const auto [at, is_new] = all.try_emplace({!has_order, has_order ? own.order : own.frequency,
+                                               own.growth, own.rotor ? own.rotor->name : ""},
+                                              own);
     if (is_new) return;
     at->second.amplitude += own.amplitude;
     at->second.names += ", " + own.names;
@@ -162,7 +186,9 @@ std::vector<Excitation> excitations_at(const Assembler& assembler, double Omega)
       {.order = 1.0, .amplitude = sum_at(synchronous_excitations(assembler), assembler, Omega)}};
   for (Excitation& e : other_excitations(assembler)) {
     e.amplitude *= e.growth_at(Omega);
+    e.frequency = e.order > 0.0 ? 0.0 : e.frequency_at(Omega);
     e.growth = Growth::none;
+    e.rotor = nullptr;
     all.push_back(std::move(e));
   }
   return all;
@@ -196,6 +222,9 @@ double highest_frequency(const Structure& structure, double Omega) {
   for (const double ratio : other_unbalanced_ratios(structure)) {
     highest = std::max(highest, std::abs(ratio * Omega));
   }
+  for (const Rotor& rotor : structure.rotors) {
+    if (rotor.has_own_speed()) highest = std::max(highest, std::abs(rotor.speed_at(Omega)));
+  }
   return highest;
 }
 
@@ -204,7 +233,8 @@ bool has_oscillating_force(const Structure& structure) {
   return std::any_of(forces.begin(), forces.end(),
                      [](const Force& f) { return !f.is_constant() && !f.is_synchronous(); }) ||
          std::ranges::any_of(other_unbalanced_ratios(structure),
-                             [](double ratio) { return std::abs(ratio) != 1.0; });
+                             [](double ratio) { return std::abs(ratio) != 1.0; }) ||
+         (structure.rotor_of_own_speed() && !structure.unbalances.empty());
 }
 
 bool has_constant_force(const Structure& structure) {

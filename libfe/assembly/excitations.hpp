@@ -9,11 +9,12 @@
 namespace whirl::inline fe {
 
 struct Force;
+struct Rotor;
 
 /// How the amplitude of a load grows with the speed.
 enum class Growth {
   none,
-  unbalance  ///< by Omega^2
+  unbalance  ///< by the square of the speed
 };
 
 /// A load f(t) = Re(amplitude e^(i alpha)). Its angle alpha is that of the shaft times an order, or
@@ -25,16 +26,17 @@ struct Excitation {
   /// Full vector, see DofMap [N, N.m], of an unbalance over Omega^2 [kg.m]; of constant loads the
   /// real part counts.
   CVec amplitude;
-  std::string names{};  ///< of the forces in it: "pump, motor"
+  std::string names{};           ///< of the forces in it: "pump, motor"
+  const Rotor* rotor = nullptr;  ///< whose own speed it has, of a structure that lives on
 
-  bool is_constant() const { return order == 0.0 && frequency == 0.0; }
+  bool is_constant() const { return order == 0.0 && frequency == 0.0 && !rotor; }
   /// Whether it has the frequency of the speed.
   bool is_synchronous() const { return order == 1.0; }
   /// What the amplitude is multiplied with at a speed.
-  double growth_at(double Omega) const { return growth == Growth::none ? 1.0 : Omega * Omega; }
+  double growth_at(double Omega) const;
   /// Rate of alpha at a speed [rad/s].
-  double frequency_at(double Omega) const { return order > 0.0 ? order * Omega : frequency; }
-  /// "2x", "40 Hz".
+  double frequency_at(double Omega) const;
+  /// "2x", "40 Hz", "speed of hp".
   std::string label() const;
 };
 

@@ -290,19 +290,38 @@ double diameter_at(const Structure& structure, const Mesh& mesh, int node) {
   return shaft_diameter(structure, mesh, mesh.z.at(at), mesh.shaft_of.at(at));
 }
 
-double shaft_ratio(const Point& point, const Structure& structure, const Mesh& mesh) {
-  if (point.kind == Point::Kind::ground) return 0.0;
+std::optional<int> shaft_of(const Point& point, const Structure& structure, const Mesh& mesh) {
+  if (point.kind == Point::Kind::ground) return std::nullopt;
   const auto index = static_cast<std::size_t>(point.index);
-  const std::optional<int> shaft = point.kind == Point::Kind::node
-                                       ? mesh.shaft_of.at(index)
-                                       : structure.shaft_named(structure.bodies.at(index).rotor);
+  if (point.kind == Point::Kind::node) return mesh.shaft_of.at(index);
+  return structure.shaft_named(structure.bodies.at(index).rotor);
+}
+
+namespace {
+
+bool stands(const Point& point, const Structure& structure) {
+  return point.kind == Point::Kind::body &&
+         !structure.bodies.at(static_cast<std::size_t>(point.index)).spins;
+}
+
+}  // namespace
+
+double shaft_ratio(const Point& point, const Structure& structure, const Mesh& mesh) {
+  const std::optional<int> shaft = shaft_of(point, structure, mesh);
   return shaft ? structure.shafts().at(static_cast<std::size_t>(*shaft)).ratio : 0.0;
 }
 
 double spin_ratio(const Point& point, const Structure& structure, const Mesh& mesh) {
-  const bool stands = point.kind == Point::Kind::body &&
-                      !structure.bodies.at(static_cast<std::size_t>(point.index)).spins;
-  return stands ? 0.0 : shaft_ratio(point, structure, mesh);
+  return stands(point, structure) ? 0.0 : shaft_ratio(point, structure, mesh);
+}
+
+double shaft_speed(const Point& point, const Structure& structure, const Mesh& mesh, double Omega) {
+  const std::optional<int> shaft = shaft_of(point, structure, mesh);
+  return shaft ? structure.shafts().at(static_cast<std::size_t>(*shaft)).speed_at(Omega) : 0.0;
+}
+
+double spin_speed(const Point& point, const Structure& structure, const Mesh& mesh, double Omega) {
+  return stands(point, structure) ? 0.0 : shaft_speed(point, structure, mesh, Omega);
 }
 
 std::vector<std::vector<int>> Mesh::lines() const {

@@ -83,12 +83,20 @@ double shaft_diameter(const Structure& structure, const Mesh& mesh, double z, in
 /// The same at a node, of its own shaft.
 double diameter_at(const Structure& structure, const Mesh& mesh, int node);
 
+/// Number of the shaft that a point belongs to, from 0; nothing: the ground, or a rotor that is not
+/// there.
+std::optional<int> shaft_of(const Point& point, const Structure& structure, const Mesh& mesh);
+
 /// Speed of the shaft that a point belongs to over that of the first shaft, of a body whether it
-/// spins or not; 0: the ground.
+/// spins or not; 0: the ground; NaN: its speed is its own.
 double shaft_ratio(const Point& point, const Structure& structure, const Mesh& mesh);
 
 /// The same of what is at a point: of a body that does not spin it is 0.
 double spin_ratio(const Point& point, const Structure& structure, const Mesh& mesh);
+
+/// The same as speeds where the first shaft has a speed [rad/s].
+double shaft_speed(const Point& point, const Structure& structure, const Mesh& mesh, double Omega);
+double spin_speed(const Point& point, const Structure& structure, const Mesh& mesh, double Omega);
 
 /// All stations of a structure, in the order disks, bearings, links, gears, supports, unbalances,
 /// forces, probes, layers, others.

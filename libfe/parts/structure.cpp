@@ -2,12 +2,32 @@
 
 #include <algorithm>
 
+#include "libbase/numerics/constants.hpp"
+
 namespace whirl::inline fe {
+
+double Rotor::speed_at(double Omega) const {
+  if (!has_own_speed()) return ratio * Omega;
+  const auto above = std::upper_bound(lead.begin(), lead.end(), Omega);
+  if (above == lead.begin() || own.size() == 1) return own.front();
+  if (above == lead.end()) return own.back();
+  const auto i = static_cast<std::size_t>(above - lead.begin());
+  const double share = (Omega - lead[i - 1]) / (lead[i] - lead[i - 1]);
+  return own[i - 1] + share * (own[i] - own[i - 1]);
+}
+
+const Rotor* Structure::rotor_of_own_speed() const {
+  const auto found = std::ranges::find_if(rotors, &Rotor::has_own_speed);
+  return found == rotors.end() ? nullptr : &*found;
+}
 
 std::vector<Structure::Shaft> Structure::shafts() const {
   static const std::string first;
   std::vector<Shaft> all{{shaft, first}};
-  for (const Rotor& r : rotors) all.push_back({r.shaft, r.name, r.z, r.ratio});
+  for (const Rotor& r : rotors) {
+    const double ratio = r.has_own_speed() ? nan : r.ratio;
+    all.push_back({r.shaft, r.name, r.z, ratio, &r});
+  }
   return all;
 }
 

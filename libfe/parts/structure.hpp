@@ -74,18 +74,26 @@ struct Segment {
 /// that of the first.
 struct Rotor {
   std::string name;
-  double ratio = 1.0;          ///< of its speed to that of the first shaft; below 0: against it
+  double ratio = 1.0;  ///< of its speed to that of the first shaft; below 0: against it
+  /// In place of a ratio its own speeds at speeds of the first shaft, which ascend [rad/s]; a
+  /// single one: it always has that; none: the ratio holds.
+  std::vector<double> lead{}, own{};
   double z = 0.0;              ///< of its left end, along the axis of the first shaft [m]
   std::vector<Segment> shaft;  ///< left to right
   Where where{};
 
   bool operator==(const Rotor&) const = default;
 
+  bool has_own_speed() const { return !own.empty(); }
+  /// Speed where the first shaft has a speed [rad/s]: own speeds are straight between those that
+  /// are given, and stay beyond them.
+  double speed_at(double Omega) const;
+
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{
-        required("ratio", &Rotor::ratio, "", any,
-                 "of its speed to that of the first shaft; below 0: it turns against it"),
+        alternative("ratio", &Rotor::ratio, "", any,
+                    "of its speed to that of the first shaft; below 0: it turns against it"),
         optional("position", &Rotor::z, "m", nonnegative,
                  "of its left end, from that of the first shaft")};
   }
@@ -312,10 +320,13 @@ struct Structure {
   /// A shaft: segments from where it starts, and the ratio of its speed to that of the first one.
   struct Shaft {
     const std::vector<Segment>& segments;
-    const std::string& name;  ///< of its rotor; empty: the first shaft
-    double start = 0.0;       ///< [m]
-    double ratio = 1.0;
+    const std::string& name;       ///< of its rotor; empty: the first shaft
+    double start = 0.0;            ///< [m]
+    double ratio = 1.0;            ///< NaN: it has a speed of its own
+    const Rotor* rotor = nullptr;  ///< of a further shaft
 
+    bool has_own_speed() const { return rotor && rotor->has_own_speed(); }
+    double speed_at(double Omega) const { return rotor ? rotor->speed_at(Omega) : Omega; }
     double length() const {
       double sum = 0.0;
       for (const Segment& segment : segments) sum += segment.length;
@@ -329,6 +340,8 @@ struct Structure {
   const std::vector<Segment>& segments_of(int number) const {
     return number == 0 ? shaft : rotors.at(static_cast<std::size_t>(number) - 1).shaft;
   }
+  /// The first of the rotors whose speed is their own; null: there is none.
+  const Rotor* rotor_of_own_speed() const;
   /// Number of the shaft of a rotor, from 0; an empty name is the first shaft, nothing is no rotor.
   std::optional<int> shaft_named(const std::string& rotor) const;
 

@@ -68,6 +68,17 @@ Curve curve_of(const Branches& b, Eigen::Index i, std::vector<double> y) {
   return c;
 }
 
+/// Speed of a shaft that is its own, over that of the first one.
+Curve own_speed_curve(const Branches& b, const Rotor& rotor) {
+  Curve c{.name = "speed of " + rotor.name, .paint = Paint::ink};
+  c.dash = Dash::dash_dot;
+  c.x = b.speed;
+  for (const double speed : b.speed) {
+    c.y.push_back(std::abs(rotor.speed_at(speed * speed_unit().size)) * b.unit.factor);
+  }
+  return c;
+}
+
 void mark_operation(const ResultView& result, Panel& panel) {
   const double speed = speed_of(result) / speed_unit().size;
   if (!std::isfinite(speed) || speed < panel.x.first || speed > panel.x.last) return;
@@ -187,10 +198,14 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   p.rules.push_back({Rule::Kind::slope, 0.5 * per_speed, "½X", Paint::gray, Dash::dotted});
   if (result.model) {
     for (const Rotor& rotor : result.model->structure.rotors) {
+      if (rotor.has_own_speed()) {
+        p.curves.push_back(own_speed_curve(b, rotor));
+        continue;
+      }
       const double ratio = std::abs(rotor.ratio);
       if (ratio == 0.0 || ratio == 0.5 || ratio == 1.0 || ratio == 2.0) continue;
-      p.rules.push_back({Rule::Kind::slope, ratio * per_speed,
-                         fmt::format("{:.4g}X", ratio), Paint::ink, Dash::dash_dot});
+      p.rules.push_back({Rule::Kind::slope, ratio * per_speed, fmt::format("{:.4g}X", ratio),
+                         Paint::ink, Dash::dash_dot});
     }
   }
   mark_operation(result, p);

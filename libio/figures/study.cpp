@@ -94,11 +94,17 @@ std::vector<Extent> extents_of(const SweepView& v, const Sections& of) {
   return extents;
 }
 
-/// Adds the sections; where some motions are far away, first those that are near each other.
+/// Adds the sections; where a few motions are far away, first those that are near each other.
 void add_sections(const SweepView& v, const Sections& of, Figure& f) {
   Panel all = section_panel(v, of);
   const std::vector<Extent> extents = extents_of(v, of);
-  if (const auto near = near_range(extents)) {
+  const auto near = near_range(extents);
+  const auto far =
+      near
+          ? std::count_if(extents.begin(), extents.end(),
+                          [&](const Extent& e) { return e.low < near->low || e.high > near->high; })
+          : 0;
+  if (near && 2 * far < std::ssize(extents)) {
     Sections enlarged = of;
     const double reach = std::max(std::abs(near->low), std::abs(near->high));
     if (!of.keeps_unit) enlarged.unit = unit_for(reach, "m");
@@ -109,9 +115,6 @@ void add_sections(const SweepView& v, const Sections& of, Figure& f) {
     p.title = "without what is far away";
     all.title = "all";
     all.share = 1.2;
-    const auto far = std::count_if(extents.begin(), extents.end(), [&](const Extent& e) {
-      return e.low < near->low || e.high > near->high;
-    });
     f.notes.push_back(fmt::format(
         "{} of {} motions are far away from the others: the first panel is enlarged, the second "
         "shows all.",

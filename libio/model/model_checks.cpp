@@ -77,8 +77,9 @@ void check_rotors(ModelReading& reading, const Mesh& mesh) {
   const Structure& s = reading.model.structure;
   if (s.rotors.empty()) return;
   for (const Contact& c : reading.model.contacts) {
-    const double at = shaft_ratio(resolve(c.at, s, mesh), s, mesh);
-    const double against = spin_ratio(resolve(c.against, s, mesh), s, mesh);
+    const double leading = reading.model.speed > 0.0 ? reading.model.speed : 1.0;
+    const double at = shaft_speed(resolve(c.at, s, mesh), s, mesh, leading) / leading;
+    const double against = spin_speed(resolve(c.against, s, mesh), s, mesh, leading) / leading;
     const std::string key = "contact." + c.name;
     const AnyGeometry geometry = geometry_of(c);
     if ((c.friction.slip == Slip::forward || rubs_apart(geometry)) && !(at > against)) {

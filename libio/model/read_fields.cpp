@@ -153,9 +153,9 @@ std::vector<double> TableReader::list(std::string_view key, std::string_view uni
   return numbers;
 }
 
-std::optional<Mat> TableReader::rows(std::string_view key) {
+std::optional<Mat> TableReader::rows(std::string_view key, std::string_view unit) {
   const ConfigNode* value = node(key);
-  note(key, {.form = AskedKey::Form::rows});
+  note(key, {.form = AskedKey::Form::rows, .unit = std::string(unit)});
   if (!value) return std::nullopt;
   const auto is_list = [](const ConfigNode& v) {
     return v.kind == ConfigNode::Kind::array && !v.items.empty();
@@ -175,7 +175,7 @@ std::optional<Mat> TableReader::rows(std::string_view key) {
       return std::nullopt;
     }
     for (std::size_t j = 0; j < length; ++j) {
-      const auto number = quantity(row.items[j], path(key), "", Range::any);
+      const auto number = quantity(row.items[j], path(key), unit, Range::any);
       if (!number) return std::nullopt;
       matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = *number;
     }

@@ -56,7 +56,7 @@ class TableReader {
   /// A list of one or more.
   std::vector<double> list(std::string_view key, std::string_view unit, Range range);
   /// A matrix by its rows, all of one length, or one row: numbers without unit.
-  std::optional<Mat> rows(std::string_view key);
+  std::optional<Mat> rows(std::string_view key, std::string_view unit = "");
   /// A matrix of two rows: one value that stands for both of the diagonal, or { xx, yy, xy, yx },
   /// of which xy and yx are zero if left out.
   /// @param range  of the one value; each of the four may be any number

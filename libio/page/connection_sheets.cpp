@@ -200,7 +200,9 @@ Sheet films_sheet(const ModelParts& parts) {
 }
 
 Sheet rolling_sheet(const ModelParts& parts) {
-  const auto row = [](const Contact& c) -> const auto& { return *rolling_elements(c.geometry); };
+  const auto row = [](const Contact& c) -> const auto& {
+    return *rolling_elements(c.geometry);
+  };
   return {"Rolling bearings",
           sheet_table(
               rolling_bearings(parts.model.contacts),
@@ -211,7 +213,8 @@ Sheet rolling_sheet(const ModelParts& parts) {
                {shown_heading("radial play", "um"),
                 [=](const Contact& c) { return shown_digits(row(c).play, "um"); }},
                {"cage over shaft", [=](const Contact& c) { return five_digits(row(c).cage); }},
-               {"law of an element", [](const Contact& c) { return std::string(std::visit([](const auto& law) { return law.name; }, c.law));
+               {"law of an element", [](const Contact& c) {
+                  return std::string(std::visit([](const auto& law) { return law.name; }, c.law));
                 }}})};
 }
 

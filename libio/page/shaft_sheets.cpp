@@ -74,10 +74,12 @@ Sheet sections_sheet(const ModelParts& parts, const Structure::Shaft& shaft, int
                           part.theory == Theory::timoshenko ? formula_text(part.shear) : "-"});
     z += part.length;
   }
-  Sheet sheet{shaft.name.empty() ? "Sections of the shaft"
-                                 : fmt::format("Sections of rotor {}, {:.6g} times the speed",
-                                               shaft.name, shaft.ratio),
-              table};
+  Sheet sheet{
+      shaft.name.empty() ? "Sections of the shaft"
+      : shaft.has_own_speed()
+          ? fmt::format("Sections of rotor {}, at a speed of its own", shaft.name)
+          : fmt::format("Sections of rotor {}, {:.6g} times the speed", shaft.name, shaft.ratio),
+      table};
   tell_common(sheet, 3);
   const auto tells = [&](const auto& has, const char* text) {
     if (std::ranges::any_of(shaft.segments, has)) sheet.notes.emplace_back(text);

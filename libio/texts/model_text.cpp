@@ -128,7 +128,10 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
     if (shaft.name.empty()) continue;
     table.row(
         {"rotor " + shaft.name,
-         fmt::format("{:.6g} times the speed{}", shaft.ratio,
+         fmt::format("{}{}",
+                     !shaft.has_own_speed() ? fmt::format("{:.6g} times the speed", shaft.ratio)
+                     : shaft.rotor->own.size() == 1 ? format_speed(shaft.rotor->own.front())
+                                                    : std::string("speeds of a table"),
                      shaft.segments.empty() ? ""
                                             : fmt::format(", {} to {}", format_length(shaft.start),
                                                           format_length(shaft.end())))});

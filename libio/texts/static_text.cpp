@@ -68,17 +68,16 @@ std::string films_text(const std::vector<RunningFilm>& films, double speed) {
 std::string rolling_text(const std::vector<RunningBearing>& bearings) {
   if (bearings.empty()) return "";
   const auto part = [](const char* name, int i, int j) {
-    return TableColumn<RunningBearing>(shown_heading(name, "N/m"),
-                                       [i, j](const RunningBearing& b) {
-                                         return shown_number(b.stiffness(i, j), "N/m", ".5g");
-                                       });
+    return TableColumn<RunningBearing>(shown_heading(name, "N/m"), [i, j](const RunningBearing& b) {
+      return shown_number(b.stiffness(i, j), "N/m", ".5g");
+    });
   };
   return "\nRolling bearings, their cages where they are at time 0\n\n" +
-         table_of(bearings,
-                  {shown("name").as("rolling bearing"), shown("fx", "N", ".4f").as("load x"),
-                   shown("fy", "N", ".4f").as("load y"), shown("loaded"),
-                   shown("largest", "N", ".4f"), part("kxx", 0, 0), part("kxy", 0, 1),
-                   part("kyy", 1, 1)}) +
+         table_of(
+             bearings,
+             {shown("name").as("rolling bearing"), shown("fx", "N", ".4f").as("load x"),
+              shown("fy", "N", ".4f").as("load y"), shown("loaded"), shown("largest", "N", ".4f"),
+              part("kxx", 0, 0), part("kxy", 0, 1), part("kyy", 1, 1)}) +
          "\n  Loaded: balls or rollers that are pressed; largest: the radial load of the one that "
          "is\n  pressed most; force = -K u about there, kyx = kxy.\n";
 }
@@ -100,7 +99,8 @@ std::string text_of(const StaticStudy& study) {
                                        shown("x", "um", ".3f"),
                                        shown("y", "um", ".3f")});
   text += text_of(study.probes);
-  if (!study.at_rest.bearings.empty() || (study.on_films.films.empty() && study.on_elements.bearings.empty())) {
+  if (!study.at_rest.bearings.empty() ||
+      (study.on_films.films.empty() && study.on_elements.bearings.empty())) {
     text += "\n" + table_of(study.at_rest.bearings,
                             {shown("bearing"), shown("fx", "N", ".4f").as("load x"),
                              shown("fy", "N", ".4f").as("load y")});

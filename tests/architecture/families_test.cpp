@@ -114,6 +114,7 @@ TEST(ContactLaws, HertzIsAFileAndTwoLinesOfTheList) {
   const auto places = places_in("libcontact", "\\bHertz<|laws/hertz");
   std::map<std::string, int> outside = places;
   outside.erase("laws/hertz.hpp");
+  outside.erase("rolling_bearing.hpp");  // whose balls are pressed by it
   EXPECT_EQ(outside, (std::map<std::string, int>{{"laws.hpp", 2}}));
   for (const char* folder : {"libfe", "libdyn", "libdata", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, "\\bHertz<|laws/hertz").empty()) << folder;

@@ -148,7 +148,7 @@ TEST(Architecture, NoClassIsTooWide) {
     const char* why;
   };
   const std::map<std::string, Wide> known = {
-      {"ContactLanes", {64, "the coefficients of one contact, which its loop holds together"}},
+      {"ContactLanes", {66, "the coefficients of one contact, which its loop holds together"}},
       {"ContactSystem", {46, "the equations of motion, asked for in the words of every method"}},
       {"TableReader", {38, "a function for every kind of value that a table may hold"}},
       {"ResultWriter", {28, "a function for every kind of value that a file may hold"}},
@@ -157,8 +157,8 @@ TEST(Architecture, NoClassIsTooWide) {
       {"Writer", {27, "a function for every table of a file"}},
       {"Builder", {27, "the calls that a parser of JSON makes"}},
       {"LinearFlow", {26, "tables and what is done with them"}},
-      {"Structure", {27, "a list for every kind of part that a model may have"}},
-      {"Assembler", {26, "all that a structure says at a speed: matrices, loads, places, ratios"}},
+      {"Structure", {28, "a list for every kind of part that a model may have"}},
+      {"Assembler", {28, "all that a structure says at a speed: matrices, loads, places, ratios"}},
   };
   std::map<std::string, int> wide;
   for_each_source([&](const fs::path& path, std::istream& file) {

@@ -24,7 +24,7 @@ geometry::Face sample(geometry::Face) {
   return {.radius = 0.05};
 }
 geometry::BladeRow sample(geometry::BladeRow) {
-  return geometry::BladeRow{.blades = 3, .tip = 0.1}.place(1, {.Omega = Omega});
+  return geometry::BladeRow{.blades = 3, .tip = 0.1}.place(1, {.at = Omega, .phase_rate = Omega});
 }
 
 geometry::RollingElements sample(geometry::RollingElements) {
@@ -35,7 +35,7 @@ geometry::RollingElements sample(geometry::RollingElements) {
       .first = 0.2,
       .shapes = {{.is_inner = true, .height = 2e-4, .order = 7.0, .angle = 0.3},
                  {.height = -5e-4, .angle = 0.5, .sharpness = 40.0}}}
-      .place(0, {.Omega = Omega, .at = 1.0, .against = -0.5});
+      .place(0, {.at = Omega, .against = -0.5 * Omega, .phase_rate = Omega});
 }
 
 geometry::Stop sample(geometry::Stop) {
@@ -157,7 +157,7 @@ TYPED_TEST(EveryGeometry, HasAUnitNormalOnItsSurface) {
 TYPED_TEST(EveryGeometry, IsOneOfThePlacesOfAContact) {
   EXPECT_GE(this->geometry.places(), 1);
   const AnyGeometry any = this->geometry;
-  EXPECT_EQ(place_of(any, 0, {.Omega = Omega}).index(), any.index());
+  EXPECT_EQ(place_of(any, 0, {.at = Omega}).index(), any.index());
   EXPECT_TRUE(any == AnyGeometry(this->geometry));
   // the one direction of a plane is its normal
   if (const auto direction = direction_of(any)) {

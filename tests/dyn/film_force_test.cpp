@@ -67,7 +67,7 @@ TEST(FilmForce, IsThatOfTheSqueezedHalf) {
 TEST(FilmForce, IsOcvirksAtRest) {
   for (const double Omega : {300.0, -120.0}) {
     const MassOnFilm p{.Omega = Omega};
-    const FilmAtSpeed film = at_speed(oil_film(p), Omega, 1.0);
+    const FilmAtSpeed film = at_speed(oil_film(p), Omega, Omega);
     const double s = size_of(p.bearing);
     for (const double e : {0.05, 0.5, 0.95}) {
       const double Q = (1.0 - e) * (1.0 + e);
@@ -88,7 +88,7 @@ TEST(FilmForce, TakesItsRatesByThePhase) {
     double Omega, rate, spin;
   } cases[] = {{300.0, 300.0, 1.0}, {-300.0, 300.0, -1.0}, {0.0, 2.0 * pi, 0.0}};
   for (const auto& [Omega, rate, spin] : cases) {
-    const FilmAtSpeed film = at_speed(oil, Omega, 1.0);
+    const FilmAtSpeed film = at_speed(oil, Omega, Omega);
     EXPECT_EQ(film.rate, rate);
     EXPECT_EQ(film.spin, spin);
     EXPECT_EQ(film.clearance, p.bearing.clearance);
@@ -97,13 +97,13 @@ TEST(FilmForce, TakesItsRatesByThePhase) {
   }
   OilFilm squeezed = oil;
   squeezed.law = Squeeze{};
-  EXPECT_EQ(at_speed(squeezed, 300.0, 1.0).spin, 0.0);  // the journal does not drag it
+  EXPECT_EQ(at_speed(squeezed, 300.0, 300.0).spin, 0.0);  // the journal does not drag it
 }
 
 // In the middle of its bearing, K_xy = -K_yx = pi s Omega / c, C = 2 pi s / c.
 TEST(FilmForce, HasTheSlopesOfAFullTurnInTheMiddle) {
   const MassOnFilm p{};
-  const FilmAtSpeed film = at_speed(oil_film(p), p.Omega, 1.0);
+  const FilmAtSpeed film = at_speed(oil_film(p), p.Omega, p.Omega);
   const double s = size_of(p.bearing), c = p.bearing.clearance;
   const auto slopes = film_slopes(film, Vec2::Zero(), Vec2::Zero());
   ASSERT_TRUE(slopes);
@@ -155,7 +155,7 @@ TEST(FilmForce, CarriesALoadWhereItSays) {
   constexpr double found = 1e-8;  // of the load: 1e-16 of the place, over 1 - e of 1e-3
   for (const double Omega : {300.0, -300.0}) {
     const MassOnFilm p{.Omega = Omega, .offset = {2e-3, -1e-3}};
-    FilmAtSpeed film = at_speed(oil_film(p), Omega, 1.0);
+    FilmAtSpeed film = at_speed(oil_film(p), Omega, Omega);
     for (const double e : {1e-4, 0.3, 0.9, 0.999}) {
       const double Q = (1.0 - e) * (1.0 + e);
       const double W = size_of(p.bearing) * std::abs(Omega) * e *
@@ -181,7 +181,7 @@ TEST(FilmForce, CarriesALoadWhereItSays) {
 
 TEST(FilmForce, CarriesNothingWithoutSpin) {
   const MassOnFilm p{.Omega = 0.0};
-  EXPECT_FALSE(place_under(at_speed(oil_film(p), 0.0, 1.0), {0.0, -1.0}));
+  EXPECT_FALSE(place_under(at_speed(oil_film(p), 0.0, 0.0), {0.0, -1.0}));
 }
 
 }  // namespace whirl::film_force_test

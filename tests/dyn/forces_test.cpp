@@ -119,8 +119,8 @@ TEST(MotionForces, KeepTheirPhaseOverMillionsOfRevolutions) {
   ASSERT_EQ(system.other_loads().size(), 2u);
   EXPECT_EQ(system.repeats_after(), 6);
   for (const ReducedExcitation& o : system.other_loads()) {
-    EXPECT_NEAR(std::remainder(start_angle(o.ratio, 6'000'000'001) - 2.0 * pi * o.order, 2.0 * pi), 0.0,
-                1e-6 * (o.order == 0.5 ? 1e-9 : 1.0));
+    EXPECT_NEAR(std::remainder(start_angle(o.ratio, 6'000'000'001) - 2.0 * pi * o.order, 2.0 * pi),
+                0.0, 1e-6 * (o.order == 0.5 ? 1e-9 : 1.0));
   }
 }
 

@@ -1,7 +1,6 @@
 // Loads of other frequencies than that of the speed: when they repeat, alone and together, and
 // which are too fast.
 
-#include "libdyn/system/excitation.hpp"
 #include "libdyn/system/load_periods.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/excitation.hpp"
 #include "tests/support/bladed_disk.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -108,7 +108,8 @@ TEST(LoadPeriods, KeepTheirAngleOverManyRevolutions) {
   EXPECT_NEAR(start_angle(o.ratio, 0), 0.0, kept);
   EXPECT_NEAR(start_angle(o.ratio, 1), 0.75 * pi, kept);
   EXPECT_NEAR(start_angle(o.ratio, 3), 0.25 * pi, kept);
-  EXPECT_NEAR(start_angle(o.ratio, 1'000'000'003), 0.25 * pi, kept);  // a billion is a multiple of 8
+  EXPECT_NEAR(start_angle(o.ratio, 1'000'000'003), 0.25 * pi,
+              kept);  // a billion is a multiple of 8
   EXPECT_NEAR(o.angle({2.0, 1}), 0.75 * pi + 0.75, kept);
 }
 

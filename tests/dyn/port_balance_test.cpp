@@ -54,7 +54,7 @@ Vec2 place_of(double e) {
 
 TEST(PortBalance, FindsAWeightOnOneFilm) {
   const MassOnFilm p{.offset = {3e-4, -2e-4}};
-  const FilmAtSpeed film = at_speed(p.model().films[0], p.Omega, 1.0);
+  const FilmAtSpeed film = at_speed(p.model().films[0], p.Omega, p.Omega);
   for (const double e : {0.05, 0.5, 0.95}) {
     const HeldRotor rotor = held(Vec{{0.0, load_at(p, e)}}, Mat::Zero(2, 2));  // R holds it up
     const auto place = PortBalance(rotor, {film}).find();
@@ -72,7 +72,7 @@ TEST(PortBalance, FindsAWeightOnOneFilm) {
 // A spring beside the film takes k times the place, and so the weight is more by that.
 TEST(PortBalance, SharesTheLoadWithASpring) {
   const MassOnFilm p{};
-  const FilmAtSpeed film = at_speed(p.model().films[0], p.Omega, 1.0);
+  const FilmAtSpeed film = at_speed(p.model().films[0], p.Omega, p.Omega);
   const double e = 0.4, k = 2e6;
   const Vec2 place = p.bearing.clearance * place_of(e);
   const HeldRotor rotor = held(Vec2(0.0, load_at(p, e)) - k * place, k * Mat::Identity(2, 2));
@@ -93,8 +93,8 @@ TEST(PortBalance, SharesTheLoadAmongFilms) {
   HeldRotor rotor = held(Vec{{0.0, W}}, Mat::Zero(2, 2));
   rotor.ports = independent_rows(ports);
   ASSERT_EQ(rotor.ports.chosen.size(), 2u);
-  const auto at = PortBalance(rotor, {at_speed(p.model().films[0], p.Omega, 1.0),
-                                      at_speed(thick.model().films[0], p.Omega, 1.0)})
+  const auto at = PortBalance(rotor, {at_speed(p.model().films[0], p.Omega, p.Omega),
+                                      at_speed(thick.model().films[0], p.Omega, p.Omega)})
                       .find();
   ASSERT_TRUE(at);
   ASSERT_EQ(at->journals.size(), 2u);
@@ -135,7 +135,7 @@ TEST(PortBalance, KnowsTheMiddleOfARing) {
 TEST(PortBalance, SaysThatAFilmWithoutSpeedCarriesNothing) {
   const MassOnFilm p{.Omega = 0.0};
   const HeldRotor rotor = held(Vec{{0.0, 100.0}}, Mat::Zero(2, 2));
-  EXPECT_FALSE(PortBalance(rotor, {at_speed(p.model().films[0], 0.0, 1.0)}).find());
+  EXPECT_FALSE(PortBalance(rotor, {at_speed(p.model().films[0], 0.0, 0.0)}).find());
   EXPECT_NE(not_found_on_films(0.0).find("without speed"), std::string::npos);
   const std::string at_speed_text = not_found_on_films(300.0 * pi / 30.0);
   EXPECT_NE(at_speed_text.find("300 rpm"), std::string::npos) << at_speed_text;

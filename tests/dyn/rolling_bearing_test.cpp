@@ -25,8 +25,8 @@ constexpr double digits = 1e-8;  // of reference numbers with nine digits, relat
 
 /// A bearing under a downward force, at rest.
 RunningBearing loaded(const RollingBearing& bearing, double force) {
-  const RotorInBearing rotor{.Omega = 0.0, .m = 1.0, .U = 0.0, .gravity = force,
-                             .bearing = bearing};
+  const RotorInBearing rotor{
+      .Omega = 0.0, .m = 1.0, .U = 0.0, .gravity = force, .bearing = bearing};
   const auto rest = FilmEquilibrium(rotor.model()).at(0.0);
   EXPECT_NEAR(rest->rolling.at(0).load(1), -force, 1e-9 * force);
   return rest->rolling.at(0);
@@ -36,8 +36,7 @@ RollingBearing row(int elements, bool one_is_below, double clearance = 0.0) {
   RollingBearing b = RotorInBearing::balls();
   b.elements = elements;
   b.clearance = clearance;
-  b.cage_angle =
-      -0.5 * std::numbers::pi + (one_is_below ? 0.0 : std::numbers::pi / b.elements);
+  b.cage_angle = -0.5 * std::numbers::pi + (one_is_below ? 0.0 : std::numbers::pi / b.elements);
   return b;
 }
 
@@ -48,8 +47,9 @@ TEST(RollingBearings, ShareALoadAmongFewBalls) {
     bool one_is_below;
     double largest, by_shift;
   };
-  for (const Row& r : {Row{8, true, .54321362, 1.840896415}, Row{8, false, .48737819, 1.822035913},
-                       Row{9, true, .48724534, 2.052354176}, Row{9, false, .44101153, 2.065517031}}) {
+  for (const Row& r :
+       {Row{8, true, .54321362, 1.840896415}, Row{8, false, .48737819, 1.822035913},
+        Row{9, true, .48724534, 2.052354176}, Row{9, false, .44101153, 2.065517031}}) {
     const RunningBearing b = loaded(row(r.elements, r.one_is_below), 1000.0);
     EXPECT_NEAR(b.largest / 1000.0, r.largest, digits);
     const double shift = -b.place(1);
@@ -86,8 +86,7 @@ TEST(RollingBearings, HaveTheLoadZonesOfManyElements) {
       const double shift = 20e-6, play = (1.0 - 2.0 * z.factor) * shift;
       b.clearance = 2.0 * std::max(play, 0.0);
       b.preload = 2.0 * std::max(-play, 0.0);
-      const RunningBearing found =
-          running_bearing(contact_of(b, {}, {}), Vec2(shift, 0.0), {.Omega = 0.0});
+      const RunningBearing found = running_bearing(contact_of(b, {}, {}), Vec2(shift, 0.0), {});
       const double integral = found.load(0) / (b.elements * found.largest);
       EXPECT_NEAR(integral, is_ball ? z.ball : z.roller, 2e-5) << z.factor;
     }
@@ -128,8 +127,8 @@ TEST(RollingBearings, AreAsStiffAsHertzSays) {
     const double ratio = ry / rx, R = 1.0 / (1.0 / rx + 1.0 / ry);
     const double k = 1.0339 * std::pow(ratio, 0.636);
     const double first = 1.5277 + 0.6023 * std::log(ratio), second = 1.0003 + 0.5968 / ratio;
-    const double expected = std::numbers::pi * k * 2.0 * reduced *
-                            std::sqrt(R * second / (4.5 * std::pow(first, 3)));
+    const double expected =
+        std::numbers::pi * k * 2.0 * reduced * std::sqrt(R * second / (4.5 * std::pow(first, 3)));
     EXPECT_NEAR(ball_on_race(D, along, groove, E, nu), expected, 0.03 * expected);
   }
 }
@@ -142,7 +141,8 @@ TEST(RollingBearings, AddTheForcesOfTheirEquations) {
     const Scene scene = rotor.scene();
     int pressed = 0;
     for (int i = 0; i < 300; ++i) {
-      const Vec2 u = 1e-5 * Vec2(any(random), any(random)), v = 0.01 * Vec2(any(random), any(random));
+      const Vec2 u = 1e-5 * Vec2(any(random), any(random)),
+                 v = 0.01 * Vec2(any(random), any(random));
       const Instant at(3.0 + 3.0 * any(random), i);
       Vec y(4), a(2);
       y << u, v;
@@ -233,7 +233,11 @@ TEST(RollingBearings, MoveByRk4AsByTaylorSeries) {
 // Turned so slowly that it is at rest at every instant, a bearing has the loads of both places of
 // its balls, and moves once for each of them that passes below.
 TEST(RollingBearings, MoveAsTheirBallsPass) {
-  RotorInBearing rotor{.Omega = 0.02, .m = 1.0, .c = 2e4, .U = 0.0, .gravity = 1000.0,
+  RotorInBearing rotor{.Omega = 0.02,
+                       .m = 1.0,
+                       .c = 2e4,
+                       .U = 0.0,
+                       .gravity = 1000.0,
                        .bearing = row(8, true, 20e-6)};
   const Scene scene = rotor.scene();
   constexpr int samples = 1024;
@@ -249,8 +253,8 @@ TEST(RollingBearings, MoveAsTheirBallsPass) {
   for (int k = 1; k < 100; ++k) {
     Complex sum = 0.0;
     for (Eigen::Index j = 0; j < seen.eta.cols(); ++j) {
-      sum += below(j) * std::polar(1.0, -2.0 * std::numbers::pi * k * double(j) /
-                                            double(seen.eta.cols()));
+      sum += below(j) *
+             std::polar(1.0, -2.0 * std::numbers::pi * k * double(j) / double(seen.eta.cols()));
     }
     if (std::abs(sum) <= largest) continue;
     largest = std::abs(sum);
@@ -280,8 +284,9 @@ TEST(RollingBearings, AreLinearAboutTheirPlaceOfRest) {
   const RunningBearing rest = FilmEquilibrium(model).at(0.0)->rolling.at(0);
   ASSERT_EQ(modes.oscillatory.size(), 2u);
   const double w = modes.oscillatory[0].frequency();
-  EXPECT_NEAR(w, std::sqrt(std::min(rest.stiffness(0, 0), rest.stiffness(1, 1)) / rotor.m -
-                           std::pow(0.5 * rotor.c / rotor.m, 2)),
+  EXPECT_NEAR(w,
+              std::sqrt(std::min(rest.stiffness(0, 0), rest.stiffness(1, 1)) / rotor.m -
+                        std::pow(0.5 * rotor.c / rotor.m, 2)),
               1e-9 * w);
 }
 

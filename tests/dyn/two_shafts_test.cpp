@@ -29,6 +29,7 @@ Station outer(double z) {
 struct Spools {
   double Omega = 400.0;
   double ratio = 1.5;
+  bool has_own_speed = false;  ///< that which the ratio makes
   double clearance = 2e-4;
   double mu = 0.2;
   double unbalance = 2e-5;  ///< of each shaft [kg.m]
@@ -43,6 +44,7 @@ struct Spools {
     Segment tube = cylinder(0.4, 0.07, 4);
     tube.left.inner = tube.right.inner = 0.05;
     s.rotors = {{.name = "outer", .ratio = ratio, .z = 0.1, .shaft = {tube}}};
+    if (has_own_speed) s.rotors[0].lead = {0.0}, s.rotors[0].own = {ratio * Omega};
     s.disks = {{.name = "inner", .at = at(0.3), .m = 4.0, .Id = 0.01, .Ip = 0.02},
                {.name = "outer", .at = outer(0.4), .m = 3.0, .Id = 0.02, .Ip = 0.035}};
     s.bearings = {bearing(at(0.0), orthotropic(2e6, 3e6, 400.0, 500.0)),
@@ -66,6 +68,25 @@ struct Spools {
   Scene scene() const { return make_scene(model()); }
 };
 
+// A shaft of a speed of its own rubs, drags and whirls as one of the same ratio.
+TEST(TwoShafts, MoveAtSpeedsOfTheirOwn) {
+  for (const double ratio : {1.5, -0.5}) {
+    const Spools following{.ratio = ratio, .clearance = 3e-5, .unbalance = 4e-4};
+    Spools own = following;
+    own.has_own_speed = true;
+    const Scene a = following.scene(), b = own.scene();
+    EXPECT_DOUBLE_EQ(b.contacts.contacts()[0].rim_speed, a.contacts.contacts()[0].rim_speed);
+    MotionState of_a = start_of(following.model(), a), of_b = start_of(own.model(), b);
+    const Integration run_a = run(a, of_a, 6, {.tolerance = 1e-12});
+    const Integration run_b = run(b, of_b, 6, {.tolerance = 1e-12});
+    EXPECT_EQ(run_a.cost.events, run_b.cost.events);
+    EXPECT_GE(run_a.cost.events, 2);
+    const Vec moved_a = full_state(a, of_a).displacement,
+              moved_b = full_state(b, of_b).displacement;
+    EXPECT_LT((moved_a - moved_b).norm(), 1e-7 * moved_a.norm());
+  }
+}
+
 // Slip is the difference of the speeds of both rims, whatever turns against what.
 TEST(TwoShafts, SlipByTheDifferenceOfTheirSpeeds) {
   for (const double ratio : {1.5, 1.0, 0.0, -1.0, -1.5}) {
@@ -83,10 +104,10 @@ TEST(TwoShafts, DragOilByTheSumOfTheirSpeeds) {
     const Spools spools{.ratio = ratio};
     const Assembler assembler(spools.model().structure);
     const OilFilm film{.at = at(0.3), .against = outer(0.3)};
-    EXPECT_DOUBLE_EQ(drag_ratio(film, assembler), 1.0 + ratio);
+    EXPECT_DOUBLE_EQ(drag_speed(film, assembler, 400.0), 400.0 + ratio * 400.0);
     const OilFilm to_ground{.at = outer(0.3)};
-    EXPECT_DOUBLE_EQ(drag_ratio(to_ground, assembler), ratio);
-    const FilmAtSpeed at = at_speed(film, 400.0, drag_ratio(film, assembler));
+    EXPECT_DOUBLE_EQ(drag_speed(to_ground, assembler, 400.0), ratio * 400.0);
+    const FilmAtSpeed at = at_speed(film, 400.0, drag_speed(film, assembler, 400.0));
     EXPECT_DOUBLE_EQ(at.spin, 1.0 + ratio);
   }
 }

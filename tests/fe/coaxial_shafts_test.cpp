@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "libbase/error.hpp"
@@ -264,6 +265,67 @@ TEST(CoaxialShafts, HaveCriticalSpeedsByTheUnbalanceOfEach) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(forward[i], expected[i], 6e-7) << order << ", " << i;
     }
+  }
+}
+
+Structure with_own_speed(std::vector<double> lead, std::vector<double> own) {
+  Structure s = Coaxial{}.structure();
+  s.rotors[0].lead = std::move(lead);
+  s.rotors[0].own = std::move(own);
+  return s;
+}
+
+// A speed of its own, or one by a table, makes the matrices of the ratio that it is at each speed
+// of the first shaft; also where that stands.
+TEST(CoaxialShafts, TurnAtSpeedsOfTheirOwn) {
+  const auto difference = [](const Sparse& a, const Sparse& b) {
+    return Mat(a - b).norm() / Mat(b).norm();
+  };
+  const Assembler by_table(with_own_speed({0.0, 1000.0}, {0.0, 1500.0}));
+  const Assembler by_ratio(Coaxial{1.5}.structure());
+  EXPECT_TRUE(by_table.tables_depend_on_speed());
+  for (const double speed : {0.0, 300.0, 1000.0}) {
+    const System found = by_table.at(speed), wanted = by_ratio.at(speed);
+    EXPECT_LT(difference(found.D(), wanted.D()), 1e-15) << speed;
+    EXPECT_LT(difference(found.stiffness(), wanted.stiffness()), 1e-15) << speed;
+  }
+  EXPECT_LT(
+      difference(by_table.at(2000.0).D(), Assembler(Coaxial{0.75}.structure()).at(2000.0).D()),
+      1e-15);
+  const Assembler constant(with_own_speed({0.0}, {750.0})), inner(Coaxial{0.0}.structure());
+  EXPECT_FALSE(constant.tables_depend_on_speed());
+  EXPECT_LT(difference(constant.at(Omega).D(), by_ratio.at(Omega).D()), 1e-15);
+  const Sparse alone = inner.at(Omega).D() - inner.at(0.0).D();
+  EXPECT_LT(difference(constant.at(0.0).D(), by_ratio.at(Omega).D() - alone), 1e-14);
+}
+
+// Unbalance of such a shaft has its frequency: the response is that of the order 1.5.
+TEST(CoaxialShafts, UnbalanceGoesWithASpeedOfItsOwn) {
+  for (const double sense : {1.0, -1.0}) {
+    Structure s = Coaxial{1.5 * sense}.structure();
+    s.unbalances = {{.at = outer(0.7), .moment = 1e-5, .phase = 0.3}};
+    const Assembler by_ratio(s);
+    s.rotors[0].lead = {0.0};
+    s.rotors[0].own = {750.0 * sense};
+    const Assembler own(s);
+    s.rotors[0].lead = {400.0, 600.0};
+    s.rotors[0].own = {600.0 * sense, 900.0 * sense};
+    const Assembler by_table(s);
+    const auto response = [&](const Assembler& a) {
+      const std::vector<Excitation> loads = other_excitations(a);
+      EXPECT_EQ(loads.size(), 1u);
+      EXPECT_DOUBLE_EQ(loads.at(0).frequency_at(Omega), 750.0);
+      return oscillating_response(a, loads.at(0), {Omega}, {a.point(at(0.9))});
+    };
+    const UnbalanceResponse wanted = response(by_ratio);
+    for (const Assembler* a : {&own, &by_table}) {
+      const UnbalanceResponse found = response(*a);
+      EXPECT_LT(std::abs(found.x(0, 0) - wanted.x(0, 0)), 1e-12 * std::abs(wanted.x(0, 0)));
+      EXPECT_LT(std::abs(found.y(0, 0) - wanted.y(0, 0)), 1e-12 * std::abs(wanted.y(0, 0)));
+      EXPECT_EQ(acts_at(synchronous_excitations(*a), Omega), true);
+      EXPECT_TRUE(synchronous_excitations(*a).at(0).amplitude.isZero(0.0));
+    }
+    EXPECT_THROW(critical_speeds(own, {}), ModelError);
   }
 }
 

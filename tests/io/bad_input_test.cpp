@@ -313,7 +313,7 @@ TEST(BadInput, WordsThatAreNotOnes) {
        "shaft.1.shear_coefficient", "did you mean \"cowper\"?"},
       {"friction = 0.1", "law = \"radal\"", "50:7", "contact.seal.law", "did you mean \"radial\"?"},
       {"friction = 0.1", "law = \"herz\"", "50:7", "contact.seal.law",
-       "expected one of radial, hertz, face, blade-tip; did you mean \"hertz\"?"},
+       "expected one of radial, hertz, line, face, blade-tip; did you mean \"hertz\"?"},
       {"friction = 0.1", "slip = \"actal\"", "50:8", "contact.seal.slip",
        "expected one of actual, forward; did you mean \"actual\"?"},
       {"method = \"modal\"", "method = \"modl\"", "54:10", "reduction.method",

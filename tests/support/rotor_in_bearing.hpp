@@ -56,9 +56,7 @@ struct RotorInBearing {
   /// it after an angle more.
   double height(double element, double turned) const {
     double sum = 0.0;
-    const auto angle_on = [&](Race race) {
-      return element - (race == Race::inner ? turned : 0.0);
-    };
+    const auto angle_on = [&](Race race) { return element - (race == Race::inner ? turned : 0.0); };
     for (const RaceWaves& w : waves) {
       sum += w.height * std::cos(w.order * (angle_on(w.race) - w.angle));
     }

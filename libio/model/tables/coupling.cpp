@@ -159,6 +159,12 @@ void add_halves(ModelReading& reading, TableReader& table, const Connection& cou
 void add_loads(ModelReading& reading, TableReader& table, const Connection& coupling,
                const CouplingKeys& keys) {
   const double ratio = ratio_at(reading, coupling.from), other = ratio_at(reading, coupling.to);
+  if (std::isnan(ratio) || std::isnan(other)) {
+    table.problem("to",
+                  "one of the shafts has a speed of its own; expected ratios, as a coupling "
+                  "makes them");
+    return;
+  }
   if (ratio != other) {
     table.problem("to",
                   fmt::format("the shafts turn with {:g} and {:g} times the speed of the first "

@@ -1,3 +1,5 @@
+#include "libcontact/rolling_bearing.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "libbase/numerics/constants.hpp"
-#include "libcontact/rolling_bearing.hpp"
 #include "libio/model/model_reading.hpp"
 #include "libio/model/model_table.hpp"
 #include "libio/model/read_laws.hpp"
@@ -57,8 +58,8 @@ void check_stiffness(TableReader& table, const RollingBearing& b) {
                   "their pitch circle",
                   {"element_diameter", "pitch_diameter"});
   }
-  for (const auto& [key, radius] : {std::pair{"inner_groove", b.inner_groove},
-                                    std::pair{"outer_groove", b.outer_groove}}) {
+  for (const auto& [key, radius] :
+       {std::pair{"inner_groove", b.inner_groove}, std::pair{"outer_groove", b.outer_groove}}) {
     if (radius > 0.0 && b.element_diameter > 0.0 && !(radius > 0.5 * b.element_diameter)) {
       table.problem(key, fmt::format("found {:g} m, expected more than half the element_diameter, "
                                      "{:g} m",
@@ -85,8 +86,8 @@ void check_kinematics(TableReader& table, const RollingBearing& b) {
   const double around = b.elements * b.element_diameter;
   if (has_diameters && b.element_diameter < b.pitch_diameter &&
       around > std::numbers::pi * b.pitch_diameter) {
-    table.problem("elements", fmt::format("{} of this diameter do not fit on the pitch circle",
-                                          b.elements));
+    table.problem("elements",
+                  fmt::format("{} of this diameter do not fit on the pitch circle", b.elements));
   }
   if (b.has_cage_ratio() && !(b.cage_ratio < 1.0)) {
     table.problem("cage_ratio", fmt::format("found {:g}, expected less than 1", b.cage_ratio));
@@ -113,7 +114,8 @@ void check_bearing(TableReader& table, const RollingBearing& b) {
 std::vector<RaceWaves> read_waves(ModelReading& reading, TableReader& table) {
   std::vector<RaceWaves> all;
   reading.for_each_item(
-      table, "waves", "a list of { race = ..., order = ..., height = ... }", [&](TableReader& item) {
+      table, "waves", "a list of { race = ..., order = ..., height = ... }",
+      [&](TableReader& item) {
         RaceWaves one;
         item.read(one);
         if (one.order != std::round(one.order) || one.order > most_waves) {
@@ -127,22 +129,24 @@ std::vector<RaceWaves> read_waves(ModelReading& reading, TableReader& table) {
 
 std::vector<RaceSpall> read_spalls(ModelReading& reading, TableReader& table) {
   std::vector<RaceSpall> all;
-  reading.for_each_item(
-      table, "spalls", "a list of { race = ..., width = ..., depth = ... }", [&](TableReader& item) {
-        RaceSpall one;
-        item.read(one);
-        if (one.width > widest) {
-          item.problem("width", fmt::format("found {:g} deg, expected {:g} deg at most",
-                                            one.width / degree, widest / degree));
-        }
-        all.push_back(one);
-      });
+  reading.for_each_item(table, "spalls", "a list of { race = ..., width = ..., depth = ... }",
+                        [&](TableReader& item) {
+                          RaceSpall one;
+                          item.read(one);
+                          if (one.width > widest) {
+                            item.problem("width",
+                                         fmt::format("found {:g} deg, expected {:g} deg at most",
+                                                     one.width / degree, widest / degree));
+                          }
+                          all.push_back(one);
+                        });
   return all;
 }
 
 void read_rolling_bearings(ModelReading& reading) {
   reading.for_each("rolling_bearing", [&](TableReader& table, std::size_t i) {
-    const std::string name = table.string("name").value_or(fmt::format("rolling bearing {}", i + 1));
+    const std::string name =
+        table.string("name").value_or(fmt::format("rolling bearing {}", i + 1));
     const auto at = reading.station(table);
     const Station against = other_side(reading, table, at);
     RollingBearing bearing;
@@ -188,7 +192,8 @@ ModelTable rolling_bearing_table() {
               "element_diameter = 0.01\n"
               "hertz_stiffness = 1e10\n",
           .bare = "waves = [{}]\nspalls = [{}]\n",
-          .notes = {{"against", "what holds the outer ring, as for a bearing", "\"ground\""},
+          .notes = {{"to", "what holds the outer ring: the ground, a body or another shaft",
+                     "\"ground\""},
                     {"offset", "[x, y] of the middle of the outer ring", "[0, 0]"},
                     {"waves", "of the races: a list of { race, order, height, angle }"},
                     {"spalls", "of the races: a list of { race, width, depth, angle }"}}};
