@@ -60,14 +60,15 @@ struct PlaceOfContact {
     return true;
   }
 
-  /// d is the direction of the element, which turns; tip is what moves it there, n . u.
+  /// d is the direction n of the element, which turns; r is one. The depth n . u - play changes as
+  /// n turns as if the place moved with a tip at -u.
   HWY_INLINE HWY_ATTR bool find_on_element(const ContactLanes<P>& c) {
-    tip_x = dx - c.offset_x;
-    tip_y = dy - c.offset_y;
+    tip_x = c.offset_x - dx;
+    tip_y = c.offset_y - dy;
     const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
     dx = fnma(sine, c.blade_sine, cosine * c.blade_cosine);
     dy = fma(cosine, c.blade_sine, sine * c.blade_cosine);
-    depth = fma(dx, tip_x, dy * tip_y) - c.plane_at;
+    depth = -fma(dx, tip_x, dy * tip_y) - c.plane_at;
     if (c.shapes) depth = depth + c.shapes->height_now();
     const P nothing(0.0);
     beyond = less(nothing, depth);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "libbase/numerics/constants.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/shown_units.hpp"
@@ -79,7 +81,12 @@ std::string rolling_text(const std::vector<RunningBearing>& bearings) {
               shown("fy", "N", ".4f").as("load y"), shown("loaded"), shown("largest", "N", ".4f"),
               part("kxx", 0, 0), part("kxy", 0, 1), part("kyy", 1, 1)}) +
          "\n  Loaded: balls or rollers that are pressed; largest: the radial load of the one that "
-         "is\n  pressed most; force = -K u about there, kyx = kxy.\n";
+         "is\n  pressed most; force = -K u about there, kyx = kxy.\n" +
+         (std::ranges::any_of(bearings, [](const RunningBearing& b) { return b.loaded == 1; })
+              ? "  Where one carries alone, nothing holds the ring across it: another cage_angle "
+                "or "
+                "less\n  clearance lets two carry.\n"
+              : "");
 }
 
 }  // namespace
