@@ -70,7 +70,7 @@ std::vector<Excitation> other_unbalances(const Assembler& assembler) {
     if (!rotor.has_own_speed()) continue;
     CVec amplitude = assembler.unbalance_of(rotor);
     if (amplitude.isZero(0.0)) continue;
-    if (rotor.own.front() < 0.0) amplitude = amplitude.conjugate().eval();
+    if (std::ranges::min(rotor.own) < 0.0) amplitude = amplitude.conjugate().eval();
     all.push_back({.frequency = rotor.own.size() == 1 ? std::abs(rotor.own.front()) : 0.0,
                    .growth = Growth::unbalance,
                    .amplitude = std::move(amplitude),

@@ -308,8 +308,8 @@ TEST(CoaxialShafts, UnbalanceGoesWithASpeedOfItsOwn) {
     s.rotors[0].lead = {0.0};
     s.rotors[0].own = {750.0 * sense};
     const Assembler own(s);
-    s.rotors[0].lead = {400.0, 600.0};
-    s.rotors[0].own = {600.0 * sense, 900.0 * sense};
+    s.rotors[0].lead = {0.0, 600.0};  // of one sense, although it begins where the shaft stands
+    s.rotors[0].own = {0.0, 900.0 * sense};
     const Assembler by_table(s);
     const auto response = [&](const Assembler& a) {
       const std::vector<Excitation> loads = other_excitations(a);
