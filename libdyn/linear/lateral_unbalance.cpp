@@ -57,8 +57,8 @@ std::vector<Journal> journals_of(const Model& given, const Assembler& assembler,
   for (const OilFilm& film : model.films) {
     if (film.is_linearized) points.push_back(assembler.point(film.at));
   }
-  for (const Contact& contact : model.contacts) {
-    if (is_rolling_bearing(contact)) points.push_back(assembler.point(contact.at));
+  for (const Contact& bearing : rolling_bearings(model.contacts)) {
+    points.push_back(assembler.point(bearing.at));
   }
   std::vector<Journal> journals;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -125,11 +125,10 @@ struct FilmEquilibrium::State {
       if (film.is_linearized) films.push_back(film);
     }
     for (const OilFilm& film : films) held.push_back({film.at, film.against});
-    for (const Contact& contact : model.contacts) {
-      if (!is_rolling_bearing(contact)) continue;
-      rolling.push_back(contact);
-      const auto elements = static_cast<std::size_t>(places_of(contact.geometry));
-      held.insert(held.end(), elements, {contact.at, contact.against});
+    rolling = rolling_bearings(model.contacts);
+    for (const Contact& bearing : rolling) {
+      const auto elements = static_cast<std::size_t>(places_of(bearing.geometry));
+      held.insert(held.end(), elements, {bearing.at, bearing.against});
     }
   }
   std::shared_ptr<const RotorOnFilms> found(double Omega);
@@ -239,9 +238,7 @@ Structure linear_structure(const Model& model) {
   for (const OilFilm& film : model.films) {
     if (film.is_linearized) add("oil film", film);
   }
-  for (const Contact& contact : model.contacts) {
-    if (is_rolling_bearing(contact)) add("rolling bearing", contact);
-  }
+  for (const Contact& bearing : rolling_bearings(model.contacts)) add("rolling bearing", bearing);
   return structure;
 }
 
