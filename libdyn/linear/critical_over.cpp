@@ -1,10 +1,12 @@
 #include "libdyn/linear/critical_over.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "libbase/numerics/constants.hpp"
+#include "libdyn/linear/own_speed_branches.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 
 namespace whirl::inline dyn {
@@ -48,6 +50,38 @@ CriticalOverBranch branch_of(const std::vector<ToldAt>& places, const std::vecto
   return branch;
 }
 
+/// Adds the branches that one shaft excites.
+void add_branches(const ModelAt& model_at, const ShapeSampler& sampler,
+                  const CriticalOptions& options, CriticalOver& to) {
+  CriticalsAt known;
+  const SolveShapes solve = [&](double value) {
+    return lowest(model_at(value), sampler, options, known[value]);
+  };
+  const ShapeBranches followed = follow_shapes(to.values, solve, sampler.weight(),
+                                               shape_limit(to.values, solve, options.count));
+  for (const ShapeBranch& branch : followed.branches) {
+    const std::vector<ToldAt> places = told_places(branch, to.values);
+    if (!is_among_lowest(places, options.count)) continue;
+    to.branches.push_back(branch_of(places, to.values, known));
+    if (!options.by.empty()) to.branches.back().shaft = options.by;
+  }
+  if (options.by.empty()) to.gaps = gaps_of(followed);
+}
+
+/// Names of the further shafts whose excitation changes with the speed of the first one in another
+/// way, at the first value or the last.
+std::vector<std::string> other_exciting(const Structure& first, const Structure& last) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(first.rotors.size(), last.rotors.size()); ++i) {
+    const auto excites = [](const Rotor& rotor) {
+      if (rotor.has_own_speed()) return rotor.own.size() > 1;
+      return rotor.ratio != 0.0 && std::abs(rotor.ratio) != 1.0;
+    };
+    if (excites(first.rotors[i]) || excites(last.rotors[i])) names.push_back(first.rotors[i].name);
+  }
+  return names;
+}
+
 }  // namespace
 
 CriticalOver critical_over(const ModelAt& model_at, ParameterName parameter,
@@ -55,19 +89,16 @@ CriticalOver critical_over(const ModelAt& model_at, ParameterName parameter,
   CriticalOver result;
   result.parameter = std::move(parameter);
   result.values = values;
-  const ShapeSampler sampler(Assembler(linear_structure(model_at(values.front()))));
-  CriticalsAt known;
-  const SolveShapes solve = [&](double value) {
-    return lowest(model_at(value), sampler, options, known[value]);
-  };
-  const ShapeBranches followed =
-      follow_shapes(values, solve, sampler.weight(), shape_limit(values, solve, options.count));
-  for (const ShapeBranch& branch : followed.branches) {
-    const std::vector<ToldAt> places = told_places(branch, values);
-    if (!is_among_lowest(places, options.count)) continue;
-    result.branches.push_back(branch_of(places, values, known));
+  const Structure first = linear_structure(model_at(values.front()));
+  const ShapeSampler sampler{Assembler(first)};
+  add_branches(model_at, sampler, options, result);
+  if (options.order != 1.0 || first.rotors.empty()) return result;
+  for (const std::string& name : other_exciting(first, model_at(values.back()).structure)) {
+    CriticalOptions by = options;
+    by.by = name;
+    add_branches(model_at, sampler, by, result);
   }
-  result.gaps = gaps_of(followed);
+  add_own_branches(model_at, sampler, options, result);
   return result;
 }
 

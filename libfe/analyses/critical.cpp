@@ -8,6 +8,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/excited_modes.hpp"
 #include "libfe/analyses/static.hpp"
 #include "libfe/eigen/hermitian.hpp"
 #include "libfe/eigen/symmetric.hpp"
@@ -78,22 +79,32 @@ Critical self_consistent(const Assembler& assembler, const CriticalOptions& opti
   return start;
 }
 
+/// Where damped critical speeds are looked for.
+struct DampedSearch {
+  const ModeFinder& finder;
+  const Structure& structure;
+  const CriticalOptions& options;
+
+  /// Frequency of the excitation [rad/s].
+  double excitation(double Omega) const { return excitation_at(structure, options, Omega); }
+};
+
 /// Follows the mode of an undamped critical speed through spin speeds by its shape.
 class DampedMode {
  public:
-  DampedMode(const ModeFinder& finder, const Critical& undamped, const CriticalOptions& options)
-      : finder_(finder), shape_(undamped.shape), options_(options) {}
+  DampedMode(const DampedSearch& search, const Critical& undamped)
+      : search_(search), finder_(search.finder), shape_(undamped.shape) {}
 
   /// Im lambda - order * Omega; NaN: no mode is like the one before.
   double gap(double Omega) {
     const Sparse M = finder_.system(Omega).M;
     std::optional<Mode> found;
-    if (mode_) found = finder_.followed(*mode_, Omega, options_.order * Omega);
+    if (mode_) found = finder_.followed(*mode_, Omega, search_.excitation(Omega));
     if (!found || mac(found->shape, shape_, M) < surely_alike) found = most_alike(Omega, M);
     if (!found) return nan;
     mode_ = std::move(found);
     shape_ = mode_->shape;
-    return mode_->frequency() - options_.order * Omega;
+    return mode_->frequency() - search_.excitation(Omega);
   }
 
   /// Of the mode that was found last.
@@ -104,7 +115,7 @@ class DampedMode {
   std::optional<Mode> most_alike(double Omega, const Sparse& M) const {
     double best = least_alike;
     std::optional<Mode> result;
-    Modes modes = finder_.near(Omega, options_.order * Omega, options_.count + 6);
+    Modes modes = finder_.near(Omega, search_.excitation(Omega), search_.options.count + 6);
     for (Mode& mode : modes.oscillatory) {
       const double agreement = mac(mode.shape, shape_, M);
       if (agreement <= best) continue;
@@ -114,17 +125,26 @@ class DampedMode {
     return result;
   }
 
+  const DampedSearch& search_;
   const ModeFinder& finder_;
   CVec shape_;                ///< of the mode so far
   std::optional<Mode> mode_;  ///< nothing: only its undamped shape is known
-  const CriticalOptions& options_;
 };
 
 constexpr const char* lost_text = "its mode does not oscillate, or changes beyond recognition";
 
+/// Speed beside one of a gap, from which secants go on.
+double second_speed(const DampedSearch& search, double a, double gap) {
+  if (search.options.by.empty()) return a + gap / search.options.order * 0.5;
+  constexpr double step = 1e-3;  // an own speed may stay, or fall
+  const double slope = (search.excitation((1.0 + step) * a) - search.excitation(a)) / (step * a);
+  if (slope > 0.0) return a + std::clamp(0.5 * gap / slope, -0.1 * a, 0.1 * a);
+  return (1.0 + step) * a;
+}
+
 /// Solves Im lambda(Omega) = order * Omega by secants from an undamped critical speed.
-void find_damped(const ModeFinder& finder, const CriticalOptions& options, Critical& critical) {
-  DampedMode mode(finder, critical, options);
+void find_damped(const DampedSearch& search, Critical& critical) {
+  DampedMode mode(search, critical);
   const double start = critical.speed;
   const auto is_in_range = [&](double Omega) {
     return Omega > start / range && Omega < range * start;
@@ -138,7 +158,7 @@ void find_damped(const ModeFinder& finder, const CriticalOptions& options, Criti
   critical.note = lost_text;
   if (!std::isfinite(ga)) return;
   if (std::abs(ga) <= damped_tol * a) return found(a);
-  double b = a + ga / options.order * 0.5;
+  double b = second_speed(search, a, ga);
   for (int it = 0; it < 60; ++it) {
     if (!is_in_range(b)) {
       critical.note = "it would be far from the undamped one";
@@ -179,38 +199,76 @@ void tell_apart(std::vector<Critical>& criticals) {
 }  // namespace
 
 std::string Critical::excitation() const {
-  return fmt::format("{:g}x", order);
+  return std::isnan(order) ? "speed of " + shaft : fmt::format("{:g}x", order);
 }
 
-std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options) {
-  if (const Rotor* rotor = assembler.structure().rotor_of_own_speed()) {
-    throw ModelError(rotor->where, "rotor." + rotor->name,
-                     "undamped critical speeds need shafts of constant ratios, but this one has a "
-                     "speed of its own: campbell tells where modes meet the speeds");
-  }
-  require_supports(assembler, options.start, "critical speeds need");
+namespace {
+
+/// Undamped ones of a rotor whose shafts have constant ratios.
+std::vector<Critical> direct_criticals(const Assembler& assembler, const CriticalOptions& options) {
   std::vector<Critical> criticals = undamped_criticals(assembler.at(options.start), options);
-  if (assembler.depends_on_speed()) {
-    std::vector<Critical> iterated;
-    for (std::size_t i = 0; i < criticals.size(); ++i) {
-      const Critical c = self_consistent(assembler, options, i, criticals[i]);
-      if (std::isfinite(c.speed)) iterated.push_back(c);
-    }
-    criticals = std::move(iterated);
-    std::sort(criticals.begin(), criticals.end(),
-              [](const Critical& a, const Critical& b) { return a.speed < b.speed; });
+  if (!assembler.depends_on_speed()) return criticals;
+  std::vector<Critical> iterated;
+  for (std::size_t i = 0; i < criticals.size(); ++i) {
+    const Critical c = self_consistent(assembler, options, i, criticals[i]);
+    if (std::isfinite(c.speed)) iterated.push_back(c);
+  }
+  std::sort(iterated.begin(), iterated.end(),
+            [](const Critical& a, const Critical& b) { return a.speed < b.speed; });
+  return iterated;
+}
+
+/// A shaft of a ratio excites as an order of the first one does.
+CriticalOptions by_order(const Structure& structure, CriticalOptions options) {
+  const auto shaft = structure.shaft_named(options.by);
+  if (!shaft) {
+    throw ModelError({}, "rotor", fmt::format("there is no rotor named \"{}\"", options.by));
+  }
+  if (*shaft == 0) return options;
+  const Rotor& rotor = structure.rotors[static_cast<std::size_t>(*shaft) - 1];
+  if (rotor.has_own_speed()) return options;
+  options.order = std::abs(rotor.ratio);
+  options.by.clear();
+  return options;
+}
+
+}  // namespace
+
+std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& given) {
+  const Structure& structure = assembler.structure();
+  const CriticalOptions options = by_order(structure, given);
+  if (options.order == 0.0) return {};  // a shaft that stands
+  require_supports(assembler, options.start, "critical speeds need");
+  std::vector<Critical> criticals = structure.rotor_of_own_speed()
+                                        ? excited_criticals(structure, options)
+                                        : direct_criticals(assembler, options);
+  for (Critical& c : criticals) {
+    if (!given.by.empty()) c.shaft = given.by;
   }
   if (!options.has_damped) return criticals;
   const ModeFinder finder(assembler);
   for (Critical& c : criticals) {
     try {
-      find_damped(finder, options, c);
+      find_damped({finder, structure, options}, c);
     } catch (const NumericalError& error) {
       c.note = error.what();
     }
   }
   tell_apart(criticals);
   return criticals;
+}
+
+std::vector<Critical> critical_speeds_by_all(const Assembler& assembler,
+                                             const CriticalOptions& options) {
+  std::vector<Critical> all = critical_speeds(assembler, options);
+  if (options.order != 1.0) return all;
+  for (const Rotor& rotor : assembler.structure().rotors) {
+    if (!rotor.has_own_speed() && std::abs(rotor.ratio) == 1.0) continue;
+    CriticalOptions by = options;
+    by.by = rotor.name;
+    for (Critical& c : critical_speeds(assembler, by)) all.push_back(std::move(c));
+  }
+  return all;
 }
 
 }  // namespace whirl::inline fe

@@ -375,11 +375,15 @@ CriticalMap critical_map(const Structure& given, const CriticalMapOptions& optio
 }
 
 CriticalMap critical_map_of(const Structure& structure, const CriticalSpeeds& found) {
-  if (found.criticals.empty()) return {};
+  // the map has speeds in proportion to the first one
+  if (structure.rotor_of_own_speed()) return {};
   CriticalMapOptions options;
-  options.critical.count = static_cast<int>(found.criticals.size());
   options.critical.order = found.order;
-  for (const Critical& c : found.criticals) options.film_speeds.push_back(c.speed);
+  for (const Critical& c : found.criticals) {
+    if (c.order == found.order) options.film_speeds.push_back(c.speed);
+  }
+  if (options.film_speeds.empty()) return {};
+  options.critical.count = static_cast<int>(options.film_speeds.size());
   return critical_map(structure, options);
 }
 

@@ -88,17 +88,22 @@ std::string text_of(const Modes& modes) {
 }
 
 std::string text_of(const CriticalSpeeds& found) {
-  return "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
-         table_of(found.criticals,
-                  in_both_units<Critical>({{"number", marked_number},
-                                           shown("speed", "rpm", ".2f"),
-                                           shown("speed", "Hz", ".3f").as(""),
-                                           shown("damped_speed", "rpm", ".2f").as("damped"),
-                                           shown("damping_ratio", "", ".5f"),
-                                           shown("whirl"),
-                                           shown("excitation")},
-                                          2)) +
-         legend_of(found.criticals);
+  const auto is_by_another = [](const Critical& c) { return c.shaft != Critical().shaft; };
+  const bool tells_shaft = std::ranges::any_of(found.criticals, is_by_another);
+  auto columns = in_both_units<Critical>({{"number", marked_number},
+                                          shown("speed", "rpm", ".2f"),
+                                          shown("speed", "Hz", ".3f").as(""),
+                                          shown("damped_speed", "rpm", ".2f").as("damped"),
+                                          shown("damping_ratio", "", ".5f"),
+                                          shown("whirl"),
+                                          shown("excitation")},
+                                         2);
+  if (tells_shaft) columns.push_back(shown("shaft").as("by"));
+  return fmt::format(
+      "Critical speeds{}: undamped, and where the damped frequency meets the "
+      "excitation\n\n{}{}",
+      tells_shaft ? " of the first shaft" : "", table_of(found.criticals, columns),
+      legend_of(found.criticals));
 }
 
 std::string text_of(const Campbell& diagram) {

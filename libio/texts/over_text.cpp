@@ -46,6 +46,21 @@ std::string gaps_text(const std::vector<ValueGap>& gaps, const ParameterAxis& ax
   return text;
 }
 
+/// Speeds of a further shaft at which it excites; empty: the values are none of one.
+std::string own_branches_text(const CriticalOver& found) {
+  if (found.own_branches.empty()) return {};
+  const SomeRows rows(found.lead_speeds.size(), "speeds");
+  ValueColumns speeds{{shown_heading("first shaft", "rpm"), [&](std::size_t i) {
+                         return shown_number(found.lead_speeds[i], "rpm", ".1f");
+                       }}};
+  for (const OwnSpeedBranch& b : found.own_branches) {
+    speeds.push_back({shown_heading(fmt::format("{} {}", speeds.size(), name_of(b.whirl)), "rpm"),
+                      [&](std::size_t i) { return number_at(b.speed, i, "rpm", ".2f"); }});
+  }
+  return fmt::format("\nSpeeds of {} at which it excites a natural frequency, undamped ({})\n\n{}",
+                     found.shaft, rows.which, table_of(rows.shown, speeds));
+}
+
 }  // namespace
 
 std::string text_of(const ModesOver& found, const ParameterAxis& axis) {
@@ -75,8 +90,10 @@ std::string text_of(const CriticalOver& found, const ParameterAxis& axis) {
   const SomeRows rows(found.values.size(), "values");
   ValueColumns undamped = value_column(found, axis), damped = undamped;
   for (const CriticalOverBranch& b : found.branches) {
-    const std::string name =
-        shown_heading(fmt::format("{} {}", undamped.size(), name_of(b.whirl)), "rpm");
+    const bool is_by_first = b.shaft == Critical().shaft;
+    const std::string name = shown_heading(fmt::format("{} {}{}", undamped.size(), name_of(b.whirl),
+                                                       is_by_first ? "" : " by " + b.shaft),
+                                           "rpm");
     undamped.push_back({name, [&](std::size_t i) { return number_at(b.speed, i, "rpm", ".2f"); }});
     damped.push_back(
         {name, [&](std::size_t i) { return number_at(b.damped_speed, i, "rpm", ".2f"); }});
@@ -85,7 +102,7 @@ std::string text_of(const CriticalOver& found, const ParameterAxis& axis) {
              "Undamped critical speeds ({})\n\n{}\nWhere the damped frequency meets the "
              "excitation\n\n{}",
              rows.which, table_of(rows.shown, undamped), table_of(rows.shown, damped)) +
-         gaps_text(found.gaps, axis);
+         own_branches_text(found) + gaps_text(found.gaps, axis);
 }
 
 std::vector<std::string> notes_of_unbalance_over(const Model& model) {

@@ -1,6 +1,12 @@
 #pragma once
 /// What linear verbs share that run over a value of the model (modes, critical, unbalance).
 
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "libdyn/linear/model_at.hpp"
 #include "libio/model/model_family.hpp"
 #include "libio/results/columns.hpp"
@@ -13,7 +19,9 @@ namespace whirl::inline cli {
 /// @throws ModelError  for --points without --over
 bool runs_over(const AxesVerbOptions& axes);
 
-/// The value that a call runs over, and the models along it.
+/// The value that a call runs over, and the models along it. The speed of a further shaft, as
+/// rotor.hp.speed, may be one although the model has a ratio or a table of speeds: a constant speed
+/// takes their place.
 class LinearAxis {
  public:
   /// @throws ModelError  for a wrong model, option or axis, also at the ends of the axis
@@ -27,6 +35,7 @@ class LinearAxis {
   Model model_;
   ParameterAxis axis_;
   ModelFamily family_;
+  std::optional<std::size_t> freed_;  ///< number of the rotor whose speed takes that place
 };
 
 /// Report on a result over values under a headline, with the file of --out.

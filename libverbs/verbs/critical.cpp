@@ -39,9 +39,10 @@ Report run_critical(const Invocation& call, const CriticalVerbOptions& options) 
   const Model model = call.model();
   const Structure structure = linear_structure(model);
   const CriticalSpeeds found{
-      critical_speeds(Assembler(structure), {.count = *options.modes,
-                                             .order = *options.order,
-                                             .start = has_linear_films(model) ? model.speed : 0.0}),
+      critical_speeds_by_all(Assembler(structure),
+                             {.count = *options.modes,
+                              .order = *options.order,
+                              .start = has_linear_films(model) ? model.speed : 0.0}),
       *options.order};
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);

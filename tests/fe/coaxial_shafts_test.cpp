@@ -246,15 +246,20 @@ TEST(CoaxialShafts, UnbalanceOfAShaftThatTurnsAgainstItIsMirrored) {
 }
 
 // Undamped critical speeds of forward whirl, by the unbalance of either shaft [rad/s].
-TEST(CoaxialShafts, HaveCriticalSpeedsByTheUnbalanceOfEach) {
-  Structure s = Coaxial{1.5, 1}.structure();
+const std::vector<double> by_inner{377.430252, 977.577269, 1812.232121},
+    by_outer{247.237054, 645.298661, 1205.964892};
+
+Structure undamped(Structure s) {
   for (Connection& b : s.bearings) {
     BearingCoefficients c = coefficients(b.coefficients, 0.0);
     c.C.setZero();
     b.coefficients = constant_bearing(c);
   }
-  const std::vector<double> by_inner{377.430252, 977.577269, 1812.232121},
-      by_outer{247.237054, 645.298661, 1205.964892};
+  return s;
+}
+
+TEST(CoaxialShafts, HaveCriticalSpeedsByTheUnbalanceOfEach) {
+  const Structure s = undamped(Coaxial{1.5, 1}.structure());
   for (const auto& [order, expected] : {std::pair(1.0, by_inner), {1.5, by_outer}}) {
     std::vector<double> forward;
     for (const Critical& c :
@@ -268,8 +273,9 @@ TEST(CoaxialShafts, HaveCriticalSpeedsByTheUnbalanceOfEach) {
   }
 }
 
-Structure with_own_speed(std::vector<double> lead, std::vector<double> own) {
-  Structure s = Coaxial{}.structure();
+Structure with_own_speed(std::vector<double> lead, std::vector<double> own,
+                         const Coaxial& rotor = {}) {
+  Structure s = rotor.structure();
   s.rotors[0].lead = std::move(lead);
   s.rotors[0].own = std::move(own);
   return s;
@@ -299,6 +305,71 @@ TEST(CoaxialShafts, TurnAtSpeedsOfTheirOwn) {
   EXPECT_LT(difference(constant.at(0.0).D(), by_ratio.at(Omega).D() - alone), 1e-14);
 }
 
+// A table that is a line through zero is a ratio: critical speeds by either shaft are those of it,
+// and the printed ones.
+TEST(CoaxialShafts, HaveTheCriticalSpeedsOfTheRatioThatATableMakes) {
+  const Coaxial fine{1.5, 1};
+  const Assembler by_ratio(undamped(fine.structure()));
+  const Assembler by_table(
+      undamped(with_own_speed({0.0, 700.0, 6000.0}, {0.0, 1050.0, 9000.0}, fine)));
+  for (const std::string by : {"", "outer"}) {
+    const CriticalOptions options{.count = 8, .has_damped = false, .by = by};
+    const auto wanted = critical_speeds(by_ratio, options);
+    const auto found = critical_speeds(by_table, options);
+    ASSERT_EQ(found.size(), wanted.size()) << by;
+    std::vector<double> forward;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].speed, wanted[i].speed, 1e-9 * wanted[i].speed) << by << i;
+      EXPECT_EQ(found[i].whirl, wanted[i].whirl);
+      EXPECT_EQ(found[i].shaft, by.empty() ? "shaft" : "outer");
+      if (found[i].whirl == Whirl::forward) forward.push_back(found[i].speed);
+    }
+    EXPECT_EQ(found[0].excitation(), by.empty() ? "1x" : "speed of outer");
+    EXPECT_EQ(wanted[0].excitation(), by.empty() ? "1x" : "1.5x");
+    const std::vector<double>& printed = by.empty() ? by_inner : by_outer;
+    ASSERT_GE(forward.size(), printed.size());
+    for (std::size_t i = 0; i < printed.size(); ++i) EXPECT_NEAR(forward[i], printed[i], 6e-7);
+  }
+}
+
+// At every critical speed of a rotor whose outer shaft keeps its speed the excitation is one of its
+// natural frequencies there, as the modes have them, and no crossing of modes over speed is missed.
+TEST(CoaxialShafts, AreCriticalWhereTheirModesMeetASpeedThatStays) {
+  constexpr double own = 963.0;  // within what gyroscopics split
+  const Assembler rotor(undamped(with_own_speed({0.0}, {own})));
+  const auto by_first = critical_speeds(rotor, {.count = 4, .has_damped = false});
+  const auto by_outer_one =
+      critical_speeds(rotor, {.count = 4, .has_damped = false, .by = "outer"});
+  ASSERT_EQ(by_first.size(), 4u);
+  ASSERT_GE(by_outer_one.size(), 1u);
+  const auto meets = [&](const Critical& c, double excitation) {
+    const Modes modes = complex_modes(rotor, c.speed, 5);
+    double nearest = 1e9;
+    for (const Mode& mode : modes.oscillatory) {
+      nearest = std::min(nearest, std::abs(mode.frequency() - excitation));
+    }
+    EXPECT_LT(nearest, 1e-9 * excitation) << c.speed;
+  };
+  for (const Critical& c : {by_first[0], by_first[3]}) meets(c, c.speed);
+  for (const Critical& c : by_outer_one) meets(c, own);
+  const auto below = [&](double speed, double excitation) {
+    int number = 0;
+    for (const double f : frequencies(rotor.structure(), speed, 8)) {
+      if (2.0 * pi * f < excitation) ++number;
+    }
+    return number;
+  };
+  const double top = 1.0001 * by_first.back().speed;
+  EXPECT_EQ(below(top, top), 4);
+  int crossings = 0;
+  for (int i = 1, last = below(0.0, own); i <= 4; ++i) {
+    const int now = below(top * i / 4, own);
+    crossings += std::abs(now - std::exchange(last, now));
+  }
+  EXPECT_EQ(std::ssize(by_outer_one), crossings);
+  EXPECT_THROW(critical_speeds(rotor, {.by = "middle"}), ModelError);
+}
+
 // Unbalance of such a shaft has its frequency: the response is that of the order 1.5.
 TEST(CoaxialShafts, UnbalanceGoesWithASpeedOfItsOwn) {
   for (const double sense : {1.0, -1.0}) {
@@ -325,7 +396,6 @@ TEST(CoaxialShafts, UnbalanceGoesWithASpeedOfItsOwn) {
       EXPECT_EQ(acts_at(synchronous_excitations(*a), Omega), true);
       EXPECT_TRUE(synchronous_excitations(*a).at(0).amplitude.isZero(0.0));
     }
-    EXPECT_THROW(critical_speeds(own, {}), ModelError);
   }
 }
 
