@@ -18,39 +18,10 @@ std::size_t elements_of(const matvar_t& v) {
   return v.dims[0] * v.dims[1];
 }
 
-template <class Number>
-std::vector<double> as_doubles(const matvar_t& v) {
-  const auto* values = static_cast<const Number*>(v.data);
-  return {values, values + elements_of(v)};
-}
-
 /// Numbers of a matrix, column by column; none: it is no matrix of real numbers.
 std::vector<double> numbers_of(const matvar_t& v) {
   if (!v.data || v.rank != 2 || v.isComplex) return {};
-  switch (v.class_type) {
-    case MAT_C_DOUBLE:
-      return as_doubles<double>(v);
-    case MAT_C_SINGLE:
-      return as_doubles<float>(v);
-    case MAT_C_INT8:
-      return as_doubles<std::int8_t>(v);
-    case MAT_C_UINT8:
-      return as_doubles<std::uint8_t>(v);
-    case MAT_C_INT16:
-      return as_doubles<std::int16_t>(v);
-    case MAT_C_UINT16:
-      return as_doubles<std::uint16_t>(v);
-    case MAT_C_INT32:
-      return as_doubles<std::int32_t>(v);
-    case MAT_C_UINT32:
-      return as_doubles<std::uint32_t>(v);
-    case MAT_C_INT64:
-      return as_doubles<std::int64_t>(v);
-    case MAT_C_UINT64:
-      return as_doubles<std::uint64_t>(v);
-    default:
-      return {};
-  }
+  return matlab_doubles(v, v.data);
 }
 
 /// Rows of a matrix of characters, which stand column by column, or of cells of these.

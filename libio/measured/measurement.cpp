@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
+#include "libio/measured/law_file.hpp"
 #include "libio/measured/probe_file.hpp"
 #include "libio/measured/record_file.hpp"
 #include "libio/model/config.hpp"
@@ -133,7 +134,8 @@ std::vector<RecordSource> read_list(const std::filesystem::path& path, const Rec
 
 Model with_values(const Model& model, const std::vector<std::string>& sets) {
   return parse_model(model.source, model.path, sets,
-                     NamedFiles::of_sets_in(std::filesystem::path(model.path).parent_path()));
+                     NamedFiles::of_sets_in(std::filesystem::path(model.path).parent_path())
+                         .with(law_table));
 }
 
 Model model_for(const Model& model, const RecordSource& source) {

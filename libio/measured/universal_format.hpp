@@ -18,6 +18,8 @@ struct RecordCode {
   static constexpr long general = 0, time_response = 1;                 // kinds of functions
   static constexpr long any_quantity = 1, displacement = 8, time = 17;  // of axes; 0 is unknown
   static constexpr long velocity = 11, acceleration = 12;
+  static constexpr long reaction_force = 9, excitation_force = 13, frequency = 18;
+  static constexpr long frequency_response = 4;  // a kind of function
   static constexpr long little_endian = 1, ieee = 2;
 };
 

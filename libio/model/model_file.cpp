@@ -35,8 +35,10 @@ std::string file_text(const std::filesystem::path& path) {
   return *text;
 }
 
-Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets) {
-  return parse_model(file_text(path), path.string(), sets, path.parent_path());
+Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets,
+                 ConvertFile convert) {
+  return parse_model(file_text(path), path.string(), sets,
+                     NamedFiles(path.parent_path()).with(convert));
 }
 
 void require_speed(const Model& model) {

@@ -12,9 +12,11 @@ namespace whirl::inline io {
 
 /// Reads a model file and everything it names (tables of bearings, of the shaft, of its bow).
 ///
-/// @param sets  "PATH=VALUE" lines of the command line; they count as if they stood in the file
+/// @param sets     "PATH=VALUE" lines of the command line; they count as if they stood in the file
+/// @param convert  reads files of other programs that it names; null: they are refused
 /// @throws ModelError  with every problem of the file
-Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets = {});
+Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets = {},
+                 ConvertFile convert = nullptr);
 
 /// Checks that a model has an operating speed.
 /// @throws ModelError  if it has none

@@ -7,10 +7,32 @@
 
 namespace whirl::inline io {
 
+namespace {
+
+/// The table that a file of another program becomes, or what is wrong with it.
+Parsed<NamedText> converted(ModelReading& reading, TableReader& table, std::string_view key,
+                            const ForeignName& name, const ForeignTable& wanted) {
+  const NamedFiles& files = reading.files;
+  if (!files.convert) {
+    return Parsed<NamedText>::failed(fmt::format(
+        "cannot read the file {}: files of MATLAB, HDF5 and universal files need a program that "
+        "has their libraries",
+        in_quotes(name.file)));
+  }
+  auto found = files.convert(files.folder / name.file, name.part, wanted);
+  if (!found) return Parsed<NamedText>::failed(found.problem);
+  for (const std::string& doubt : found->doubts) {
+    reading.doubts.push_back({table.where(key), table.path(key), doubt});
+  }
+  return std::move(found.value->table);
+}
+
+}  // namespace
+
 /// Results keep the text, so that they can be run again: it may stand at the key itself.
 std::optional<NamedText> ModelReading::text_of(
     TableReader& table, std::string_view key, const char* owner, std::size_t item,
-    const std::function<std::size_t(const std::string&)>& columns_in) {
+    const std::function<std::size_t(const std::string&)>& columns_in, const ForeignTable* foreign) {
   const auto name = table.string(key);
   if (!name) return std::nullopt;
   const Where at = table.where(key);
@@ -25,7 +47,9 @@ std::optional<NamedText> ModelReading::text_of(
                                      in_quotes(*name)));
       return std::nullopt;
     }
-    auto file = table_file(files.folder, *name, FileKind::regular, columns_in);
+    const auto of_others = foreign ? foreign_name(*name) : std::nullopt;
+    auto file = of_others ? converted(*this, table, key, *of_others, *foreign)
+                          : table_file(files.folder, *name, FileKind::regular, columns_in);
     if (!file) {
       table.problem(key, file.problem);
       return std::nullopt;

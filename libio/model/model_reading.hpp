@@ -15,6 +15,7 @@
 #include "libio/model/named_files.hpp"
 #include "libio/model/named_places.hpp"
 #include "libio/model/read_fields.hpp"
+#include "libio/model/response_table.hpp"
 #include "libio/text/table_file.hpp"
 
 namespace whirl::inline io {
@@ -25,6 +26,7 @@ struct FileTable {
   std::size_t item = 0;  ///< of an array of owners, from 0
   std::string key;       ///< which names the file
   std::string text;
+  std::optional<FittedLaw> fitted{};  ///< of a response: the law that was made of it
 };
 
 /// The first shaft, where the shaft of a rotor is named.
@@ -98,9 +100,11 @@ class ModelReading {
   /// A text that a key names by its file, or that stands at the key itself.
   /// @param owner, item  of the table, as in FileTable
   /// @param columns_in  how many columns of this kind of table a line names
-  std::optional<NamedText> text_of(
-      TableReader& table, std::string_view key, const char* owner, std::size_t item,
-      const std::function<std::size_t(const std::string&)>& columns_in);
+  /// @param foreign  what a file of another program is made to; null: such a file is none
+  std::optional<NamedText> text_of(TableReader& table, std::string_view key, const char* owner,
+                                   std::size_t item,
+                                   const std::function<std::size_t(const std::string&)>& columns_in,
+                                   const ForeignTable* foreign = nullptr);
 };
 
 template <class F>

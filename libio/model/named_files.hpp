@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "libio/model/foreign_table.hpp"
+
 namespace whirl::inline io {
 
 /// Files with tables that a model may name, and where they are.
@@ -31,8 +33,17 @@ struct NamedFiles {
     return files;
   }
 
+  /// The same files, and those of other programs, too.
+  NamedFiles with(ConvertFile how) const {
+    NamedFiles files = *this;
+    files.convert = how;
+    return files;
+  }
+
   std::filesystem::path folder{};
   bool of_text = false, of_sets = false;
+  /// Makes tables of files of other programs; null: such files are refused.
+  ConvertFile convert = nullptr;
 };
 
 }  // namespace whirl::inline io

@@ -4,17 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "libio/model/state_space_table.hpp"
+
 namespace whirl::inline io {
 
 namespace {
 
-constexpr std::string_view law_keys[] = {"numerator", "denominator", "poles", "residues",
-                                         "A",         "B",           "C",     "D"};
+constexpr std::string_view law_keys[] = {"numerator", "denominator", "poles", "residues",   "A",
+                                         "B",         "C",           "D",     "state_space"};
 constexpr Eigen::Index most_states = 200;  ///< more is a model of its own
 
 /// The keys of laws as they are read.
@@ -80,16 +83,15 @@ std::optional<PolesAndResidues> poles_and_residues(TableReader& table, const Law
   return read;
 }
 
-std::optional<StateSpace> matrices(TableReader& table, const LawKeys& keys) {
+/// The state space of matrices that are there, or what does not fit together.
+/// @param wrong  called with the name of a matrix and what is wrong with it
+std::optional<StateSpace> law_of(const StateSpaceTable& found,
+                                 const std::function<void(const char*, std::string)>& wrong) {
   StateSpace law;
-  const auto& [A, B, C, D] = std::tie(keys.A, keys.B, keys.C, keys.D);
-  const bool has_states = table.has("A") || table.has("B") || table.has("C");
-  if (!has_states && D) {
+  const auto& [A, B, C, D] = found;
+  if (D && !A && !B && !C) {
     law = {Mat(0, 0), Mat(0, D->cols()), Mat(D->rows(), 0), *D, {}, {}};
     return law;
-  }
-  for (const char* key : {"A", "B", "C"}) {
-    if (!table.has(key)) table.missing(key, "a matrix of the state space z' = A z + B u");
   }
   if (!A || !B || !C) return std::nullopt;
   const Eigen::Index n = A->rows();
@@ -99,14 +101,50 @@ std::optional<StateSpace> matrices(TableReader& table, const LawKeys& keys) {
   law.D = D ? *D : Mat(Mat::Zero(law.C.rows(), law.B.cols()));
   const auto check = [&](const char* key, const Mat& M, Eigen::Index rows, Eigen::Index cols) {
     if (M.rows() == rows && M.cols() == cols) return true;
-    table.problem(key,
-                  fmt::format("found {} x {}, expected {} x {}", M.rows(), M.cols(), rows, cols));
+    wrong(key, fmt::format("found {} x {}, expected {} x {}", M.rows(), M.cols(), rows, cols));
     return false;
   };
   const bool fits = check("A", law.A, n, n) && check("B", law.B, n, law.B.cols()) &&
                     check("C", law.C, law.C.rows(), n) &&
                     check("D", law.D, law.C.rows(), law.B.cols());
   return fits ? std::optional(law) : std::nullopt;
+}
+
+std::optional<StateSpace> matrices(TableReader& table, const LawKeys& keys) {
+  const bool has_states = table.has("A") || table.has("B") || table.has("C");
+  for (const char* key : {"A", "B", "C"}) {
+    if (has_states && !table.has(key)) {
+      table.missing(key, "a matrix of the state space z' = A z + B u");
+    }
+  }
+  return law_of({keys.A, keys.B, keys.C, keys.D}, [&](const char* key, std::string message) {
+    table.problem(key, std::move(message));
+  });
+}
+
+/// The law in the file that the key state_space names.
+std::optional<StateSpace> matrices_of_file(ModelReading& reading, TableReader& table,
+                                           LawOwner owner) {
+  const ForeignTable wanted{.kind = ForeignTable::Kind::state_space};
+  const auto from = reading.text_of(
+      table, "state_space", owner.name, owner.item,
+      [](const std::string&) { return std::size_t{0}; }, &wanted);
+  if (!from) return std::nullopt;
+  std::vector<Problem> wrong;
+  const StateSpaceTable found = parse_state_space_table(from->text, from->name, wrong);
+  reading.add_problems(wrong);
+  if (!wrong.empty()) return std::nullopt;
+  const auto report = [&](const char* key, const std::string& message) {
+    table.problem("state_space", fmt::format("{}: {}: {}", from->name, key, message));
+  };
+  const bool has_states = found.A || found.B || found.C || !found.D;
+  for (const auto& [key, matrix] :
+       {std::pair("A", &found.A), std::pair("B", &found.B), std::pair("C", &found.C)}) {
+    if (!has_states || *matrix) continue;
+    report(key, "missing, expected a matrix of the state space z' = A z + B u");
+    return std::nullopt;
+  }
+  return law_of(found, report);
 }
 
 std::optional<TransferFunction> function_in(TableReader& table, const LawKeys& keys) {
@@ -157,19 +195,27 @@ bool has_law(const TableReader& table) {
   return std::ranges::any_of(law_keys, [&](std::string_view key) { return table.has(key); });
 }
 
-std::optional<StateSpace> read_law(TableReader& table, TransferForm form) {
+std::optional<StateSpace> read_law(ModelReading& reading, TableReader& table, LawOwner owner,
+                                   TransferForm form) {
   const bool has_function = table.has("numerator") || table.has("denominator");
   const bool has_poles = table.has("poles") || table.has("residues");
   const bool has_matrices = table.has("A") || table.has("B") || table.has("C") || table.has("D");
+  const bool has_file = table.has("state_space");
+  const char* key = has_file       ? "state_space"
+                    : has_matrices ? "A"
+                    : has_poles    ? "poles"
+                                   : "denominator";
   const LawKeys keys(table);
   std::optional<StateSpace> law;
   try {
-    if (has_function + has_poles + has_matrices > 1) {
-      table.problem(has_poles ? "poles" : "A",
+    if (has_function + has_poles + has_matrices + has_file > 1) {
+      table.problem(has_poles ? "poles" : key,
                     "found two laws, expected one: numerator and denominator, poles and residues, "
-                    "or A, B, C and D");
+                    "A, B, C and D, or a file of these");
+      table.string("state_space");
       return std::nullopt;
     }
+    if (const auto of_file = matrices_of_file(reading, table, owner)) law = of_file;
     if (has_poles) law = residues(table, keys, form);
     if (has_matrices) law = matrices(table, keys);
     if (const auto read = has_function ? function_in(table, keys) : std::nullopt) {
@@ -180,9 +226,7 @@ std::optional<StateSpace> read_law(TableReader& table, TransferForm form) {
     return std::nullopt;
   }
   if (law && law->states() > most_states) {
-    table.problem(has_matrices ? "A"
-                  : has_poles  ? "poles"
-                               : "denominator",
+    table.problem(key,
                   fmt::format("found {} states, expected up to {}", law->states(), most_states));
     return std::nullopt;
   }

@@ -8,11 +8,19 @@
 
 namespace whirl::inline io {
 
-/// The keys numerator and denominator, poles and residues, or A, B, C and D.
+/// A table in an array of tables, whose files are known by these.
+struct LawOwner {
+  const char* name;      ///< "support"
+  std::size_t item = 0;  ///< from 0
+};
+
+/// The keys numerator and denominator, poles and residues, A, B, C and D, or state_space, a file
+/// with these matrices.
 /// @param form  of the numerator and denominator, or of the poles and residues
 /// @return  force over displacement; nothing: none of the keys is there, or it is wrong, which is
 ///          reported
-std::optional<StateSpace> read_law(TableReader& table, TransferForm form);
+std::optional<StateSpace> read_law(ModelReading& reading, TableReader& table, LawOwner owner,
+                                   TransferForm form);
 
 /// The keys numerator and denominator alone; nothing: one is missing or wrong, which is reported.
 std::optional<TransferFunction> read_function(TableReader& table);

@@ -47,4 +47,12 @@ struct FitOptions {
 /// @throws NumericalError  where there are too few samples
 StateSpace fitted_law(const MeasuredStiffness& response, const FitOptions& how, LawFit& fit);
 
+/// A law beside the response that it was fitted to.
+struct FittedLaw {
+  std::string support;  ///< its name
+  MeasuredStiffness response;
+  StateSpace law;  ///< without springs, dampers and masses beside it
+  LawFit fit;
+};
+
 }  // namespace whirl::inline io

@@ -45,7 +45,43 @@ bool is_whole(const std::filesystem::path& file, std::size_t variables) {
          count == variables;
 }
 
+template <class Number>
+std::vector<double> as_doubles(const void* data, std::size_t count) {
+  const auto* values = static_cast<const Number*>(data);
+  return {values, values + count};
+}
+
 }  // namespace
+
+std::vector<double> matlab_doubles(const matvar_t& v, const void* data) {
+  if (!data) return {};
+  std::size_t count = 1;
+  for (int i = 0; i < v.rank; ++i) count *= v.dims[i];
+  switch (v.class_type) {
+    case MAT_C_DOUBLE:
+      return as_doubles<double>(data, count);
+    case MAT_C_SINGLE:
+      return as_doubles<float>(data, count);
+    case MAT_C_INT8:
+      return as_doubles<std::int8_t>(data, count);
+    case MAT_C_UINT8:
+      return as_doubles<std::uint8_t>(data, count);
+    case MAT_C_INT16:
+      return as_doubles<std::int16_t>(data, count);
+    case MAT_C_UINT16:
+      return as_doubles<std::uint16_t>(data, count);
+    case MAT_C_INT32:
+      return as_doubles<std::int32_t>(data, count);
+    case MAT_C_UINT32:
+      return as_doubles<std::uint32_t>(data, count);
+    case MAT_C_INT64:
+      return as_doubles<std::int64_t>(data, count);
+    case MAT_C_UINT64:
+      return as_doubles<std::uint64_t>(data, count);
+    default:
+      return {};
+  }
+}
 
 void write_matlab_file(const std::filesystem::path& place, const char* head,
                        const std::vector<MatlabVariable>& variables, Replaces replaces) {

@@ -29,4 +29,9 @@ MatlabVariable matlab_texts(const char* name, const std::vector<std::string>& te
 MatlabVariable matlab_numbers(const char* name, std::vector<double> values, std::size_t rows,
                               std::size_t columns);
 
+/// Numbers of an array of any dimensions, the first index running fastest; none: it holds no full
+/// array of numbers.
+/// @param data  those of the variable, or one of both parts of complex numbers
+std::vector<double> matlab_doubles(const matvar_t& v, const void* data);
+
 }  // namespace whirl::inline io

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "libio/measured/law_file.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/model/report_words.hpp"
 #include "libio/results/hdf5.hpp"
@@ -46,11 +47,12 @@ void Invocation::adopt_units(const std::string& model) const {
 }
 
 Model Invocation::model() const {
-  const auto stored = NamedFiles::of_sets_in(std::filesystem::path(file).parent_path());
+  const auto stored =
+      NamedFiles::of_sets_in(std::filesystem::path(file).parent_path()).with(law_table);
   if (made) return *made;
   if (ranks && !ranks->leads()) return parse_model(ranks->share({}), file, {}, stored);
-  Model model =
-      model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets, stored);
+  Model model = model_text.empty() ? read_model(file, sets, law_table)
+                                   : parse_model(model_text, file, sets, stored);
   require_said_start(model);
   adopt_units(model.source);
   if (ranks) ranks->share([&] { return model.source; });
@@ -58,11 +60,13 @@ Model Invocation::model() const {
 }
 
 Model Invocation::variant(const std::vector<std::string>& more) const {
-  const auto stored = NamedFiles::of_sets_in(std::filesystem::path(file).parent_path());
+  const auto stored =
+      NamedFiles::of_sets_in(std::filesystem::path(file).parent_path()).with(law_table);
   if (made) return parse_model(made->source, file, more, stored);
   std::vector<std::string> all = sets;
   all.insert(all.end(), more.begin(), more.end());
-  return model_text.empty() ? read_model(file, all) : parse_model(model_text, file, all, stored);
+  return model_text.empty() ? read_model(file, all, law_table)
+                            : parse_model(model_text, file, all, stored);
 }
 
 void Invocation::require_said_start(const Model& model) const {

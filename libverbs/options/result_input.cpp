@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libio/figures/choice.hpp"
+#include "libio/measured/law_file.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/result_schema.hpp"
@@ -55,8 +56,8 @@ SceneSource scene_source(const Invocation& call) {
   const fs::path ending = fs::path(call.file).extension();
   if (ending != ".h5" && ending != ".hdf5") return SceneSource(call.model());
   auto result = open_result(call.file);
-  Model model =
-      parse_model(stored_model(*result), call.file, call.sets, NamedFiles::of_sets_in(""));
+  Model model = parse_model(stored_model(*result), call.file, call.sets,
+                            NamedFiles::of_sets_in("").with(law_table));
   return SceneSource(std::move(model), std::move(result));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "libio/measured/law_file.hpp"
 #include "libio/measured/model_fit.hpp"
 #include "libio/measured/record_values.hpp"
 #include "libio/model/model_file.hpp"
@@ -22,7 +23,7 @@ std::vector<Model> models_of(const Invocation& call, const FitVerbOptions& asked
   std::vector<Model> models{call.model()};
   if (!asked.against) return models;
   for (const std::string& file : split(*asked.against, ',')) {
-    models.push_back(read_model(file, call.sets));
+    models.push_back(read_model(file, call.sets, law_table));
   }
   return models;
 }

@@ -9,6 +9,7 @@
 
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/export/matrices.hpp"
+#include "libio/measured/law_file.hpp"
 #include "libio/model/model_file.hpp"
 
 namespace whirl::inline python {
@@ -68,7 +69,8 @@ ModelText::ModelText(std::string file, std::string text, std::vector<std::string
     : file_(std::move(file)), text_(std::move(text)), sets_(std::move(sets)), is_stored_(stored) {
   const std::filesystem::path folder = std::filesystem::path(file_).parent_path();
   made_ = std::make_shared<const Model>(parse_model(
-      text_, file_, sets_, stored ? NamedFiles::of_sets_in(folder) : NamedFiles(folder)));
+      text_, file_, sets_,
+      (stored ? NamedFiles::of_sets_in(folder) : NamedFiles(folder)).with(law_table)));
 }
 
 ModelText ModelText::with(const std::vector<std::string>& sets) const {

@@ -153,7 +153,6 @@ TEST(Architecture, NoClassIsTooWide) {
       {"TableReader", {38, "a function for every kind of value that a table may hold"}},
       {"ResultWriter", {28, "a function for every kind of value that a file may hold"}},
       {"ResultReader", {27, "a function for every kind of value that a file may hold"}},
-      {"ResponseDataset", {28, "the fields of a record, as its format numbers them"}},
       {"Writer", {27, "a function for every table of a file"}},
       {"Builder", {27, "the calls that a parser of JSON makes"}},
       {"LinearFlow", {26, "tables and what is done with them"}},

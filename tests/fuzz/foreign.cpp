@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "libbase/error.hpp"
+#include "libio/measured/law_file.hpp"
 #include "libio/measured/record_file.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/hdf5/checksum.hpp"
@@ -24,6 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace whirl;
+
+/// Laws come of a file, or what is wrong with it.
+void read_laws(const fs::path& path) {
+  for (const auto kind : {ForeignTable::Kind::response, ForeignTable::Kind::state_space}) {
+    const auto found = law_table(path, "", {kind});
+    if (!found && found.problem.empty()) std::abort();
+  }
+}
 
 template <class Action>
 void attempt(Action action) {
@@ -73,6 +83,7 @@ void read_hdf5(const fs::path& path) {
   });
   attempt([&] { open_result(path); });
   attempt([&] { read_record(path, 1000.0); });
+  read_laws(path);
 }
 
 const std::vector<std::string>& seeds() {
@@ -125,6 +136,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 'm':
       std::ofstream(matlab, std::ios::binary) << bytes;
       attempt([&] { read_record(matlab, 1000.0); });
+      read_laws(matlab);
       break;
     default:
       break;

@@ -14,6 +14,7 @@
 
 #include "libbase/error.hpp"
 #include "libdata/measured/probe_readings.hpp"
+#include "libio/measured/law_file.hpp"
 #include "libio/measured/probe_file.hpp"
 #include "libio/measured/record_file.hpp"
 #include "libio/model/model_file.hpp"
@@ -62,6 +63,14 @@ void read(const fs::path& path, const std::string& text) {
   }
 }
 
+/// A response comes of a universal file, too, or what is wrong with it.
+void read_response(const fs::path& path) {
+  for (const char* part : {"", "1", "1+x"}) {
+    const auto found = law_table(path, part, {});
+    require(found ? !found->table.text.empty() : !found.problem.empty());
+  }
+}
+
 void read_probes(const std::string& text) {
   static const Model model = read_model(WHIRL_SOURCE_DIR "/models/two_disk_mac.toml");
   try {
@@ -93,6 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 'u':
       read(scratch.folder / "record.uff", text);
+      read_response(scratch.folder / "record.uff");
       break;
     case 'w':
       read(scratch.folder / "record.wav", text);

@@ -47,7 +47,8 @@ std::vector<TransferFunction> read_filters(ModelReading& reading, TableReader& t
 
 /// The law from displacements of the sensors to currents [A/m], of one axis or of both; nothing: it
 /// is wrong, which is reported.
-std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table) {
+std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table,
+                                       std::size_t item) {
   PidController pid;
   table.read(pid);
   LoopDynamics loop;
@@ -55,7 +56,8 @@ std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table
   table.at_most("pade_order", loop.pade_order, most_pade_order);
   const bool has_pid =
       table.has("proportional") || table.has("integral") || table.has("derivative");
-  const auto law = read_law(table, TransferForm::dynamic_stiffness);
+  const auto law =
+      read_law(reading, table, {"magnetic_bearing", item}, TransferForm::dynamic_stiffness);
   std::vector<TransferFunction> functions = read_filters(reading, table);
   if (loop.pade_order <= most_pade_order) {
     for (TransferFunction& f : transfer_functions(loop)) functions.push_back(std::move(f));
@@ -69,8 +71,8 @@ std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table
   if (!has_pid && !has_law(table)) {
     table.missing("proportional",
                   "a controller: proportional, integral and derivative action, or numerator and "
-                  "denominator, poles and residues, or A, B, C and D",
-                  {"derivative", "numerator", "poles", "A"});
+                  "denominator, poles and residues, A, B, C and D, or a state_space",
+                  {"derivative", "numerator", "poles", "A", "state_space"});
   }
   if (!has_pid && !law) return std::nullopt;
   try {
@@ -80,7 +82,11 @@ std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table
     functions.insert(functions.begin(), has_pid ? transfer_function(pid) : *read_function(table));
     return chain(functions);
   } catch (const NumericalError& error) {
-    table.problem(has_pid ? "proportional" : table.has("A") ? "A" : "numerator", error.what());
+    table.problem(has_pid                    ? "proportional"
+                  : table.has("state_space") ? "state_space"
+                  : table.has("A")           ? "A"
+                                             : "numerator",
+                  error.what());
     return std::nullopt;
   }
 }
@@ -114,13 +120,14 @@ void read_magnetic_bearings(ModelReading& reading) {
     if (table.node("sensor")) sensor = station_at(reading, table, "sensor", false);
     Actuator actuator;
     table.read(actuator);
-    auto control = read_control(reading, table);
+    auto control = read_control(reading, table, i);
     if (!control || !at || !sensor) return;
     if (control->inputs() == 1) control = control->repeated(2);
     if (control->inputs() != 2 || control->outputs() != 2) {
-      table.problem("A", fmt::format("the controller has {} displacements and {} currents, "
-                                     "expected 1 or 2 of both: the axes of the bearing",
-                                     control->inputs(), control->outputs()));
+      table.problem(table.has("state_space") ? "state_space" : "A",
+                    fmt::format("the controller has {} displacements and {} currents, "
+                                "expected 1 or 2 of both: the axes of the bearing",
+                                control->inputs(), control->outputs()));
       return;
     }
     const auto axes = [&](const Station& station) {
@@ -166,7 +173,8 @@ ModelTable magnetic_bearing_table() {
                 {"A", "of a controller: z' = A z + B u, with displacements u along the axes"},
                 {"B", "of the states, a column for each axis"},
                 {"C", "i = C z + D u, control currents that act against the motion"},
-                {"D", "left out: zero"}}};
+                {"D", "left out: zero"},
+                {"state_space", "file with these matrices, beside the model"}}};
 }
 
 }  // namespace whirl::inline io

@@ -77,7 +77,13 @@ std::optional<StateSpace> law_of_response(ModelReading& reading, TableReader& ta
     table.at_most("order", *order, most_fit_order);
   }
   how.tolerance = table.quantity("tolerance", "", Range::positive).value_or(how.tolerance);
-  const auto from = reading.text_of(table, "response", "support", item, response_columns_named_in);
+  // a law of one displacement is that of both directions
+  const int ports = table.has("interface") ? static_cast<int>(support.sees.size()) : 1;
+  const ForeignTable wanted{
+      ForeignTable::Kind::response, ports,
+      table.has("form") ? std::optional(keys.form) : std::optional<TransferForm>()};
+  const auto from =
+      reading.text_of(table, "response", "support", item, response_columns_named_in, &wanted);
   if (!from) {
     for (const char* key : {"order", "tolerance"}) {
       if (table.has(key) && !table.has("response"))
@@ -86,8 +92,6 @@ std::optional<StateSpace> law_of_response(ModelReading& reading, TableReader& ta
     return std::nullopt;
   }
   if (has_law(table)) return std::nullopt;  // which is reported
-  // a law of one displacement is that of both directions
-  const int ports = table.has("interface") ? static_cast<int>(support.sees.size()) : 1;
   std::vector<Problem> wrong;
   const MeasuredStiffness response =
       parse_response_table(from->text, from->name, keys.form, ports, wrong, &reading.doubts);
@@ -103,6 +107,7 @@ std::optional<StateSpace> law_of_response(ModelReading& reading, TableReader& ta
                        fit.poles, how.tolerance, fit.error)});
     }
     support.fit = fit;
+    reading.file_tables.back().fitted = FittedLaw{support.name, response, law, fit};
     return law;
   } catch (const NumericalError& error) {
     table.problem("response", error.what());
@@ -117,9 +122,10 @@ bool spread(StateSpace& law, const Support& support, TableReader& table) {
   const auto gives = static_cast<int>(support.acts_on.size());
   if (law.inputs() == 1 && law.outputs() == 1 && takes == gives) law = law.repeated(gives);
   if (law.inputs() == takes && law.outputs() == gives) return true;
-  table.problem(table.has("A")       ? "A"
-                : table.has("poles") ? "residues"
-                                     : "numerator",
+  table.problem(table.has("A")             ? "A"
+                : table.has("state_space") ? "state_space"
+                : table.has("poles")       ? "residues"
+                                           : "numerator",
                 fmt::format("the law has {} displacements and {} forces, expected {} and {}: the "
                             "coordinates of the support",
                             law.inputs(), law.outputs(), takes, gives));
@@ -148,9 +154,9 @@ void check_one_law(TableReader& table) {
   } else if (laws == 0) {
     table.missing(
         "numerator",
-        "a law: numerator and denominator, poles and residues, A, B, C and D, a response, "
-        "or matrices",
-        {"poles", "A", "D", "response", "stiffness_matrix"});
+        "a law: numerator and denominator, poles and residues, A, B, C and D, a state_space, "
+        "a response, or matrices",
+        {"poles", "A", "D", "state_space", "response", "stiffness_matrix"});
   }
   const bool takes_form = table.has("numerator") || table.has("poles") || table.has("response");
   if (table.has("form") && laws == 1 && !takes_form) {
@@ -175,7 +181,7 @@ void read_dynamic_supports(ModelReading& reading) {
     }
     SupportKeys keys;
     table.read(keys);
-    auto law = read_law(table, keys.form);
+    auto law = read_law(reading, table, {"support", i}, keys.form);
     if (const auto fitted = law_of_response(reading, table, i, keys, support)) law = fitted;
     const auto casing = read_matrices(reading, table, i, matrix_rows);
     check_one_law(table);
@@ -235,6 +241,7 @@ ModelTable support_table() {
           {"B", "of the states, a column for each coordinate"},
           {"C", "f = C z + D u, forces that the support sets against the motion"},
           {"D", "left out: zero"},
+          {"state_space", "file with the matrices A, B, C and D, beside the model"},
           {"response", "file with a frequency response, beside the model, that a law is fitted to"},
           {"order", "number of poles of the fitted law; left out: as many as the tolerance needs"},
           {"tolerance", "of the fit: root mean square, relative", "0.001"}}};
