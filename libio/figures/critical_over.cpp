@@ -71,15 +71,14 @@ void add_branch(const CriticalOverBranch& branch, std::size_t number, const Show
   p.curves.push_back(std::move(damped));
 }
 
-/// Lines along which a further shaft excites, in the plane of both speeds.
+/// Lines along which a further shaft excites, in the plane of both speeds. They run up: names at
+/// their ends would lie upon each other.
 void add_own_branches(const CriticalOver& found, const ShownAxis& axis,
                       const std::vector<std::string>& shafts, Panel& p) {
-  std::size_t number = found.branches.size();
   for (const OwnSpeedBranch& branch : found.own_branches) {
     require_values(branch.speed.size() == std::ssize(found.lead_speeds));
     const WhirlStyle style = whirl_style(branch.whirl);
     Curve c{.name = exciting_name(found.shaft, style),
-            .end_name = fmt::format("{}{}", ++number, style.letter),
             .paint = series_paint(place_of(found.shaft, shafts))};
     c.x = scaled(numbers(branch.speed), 1.0 / axis.factor);
     c.y = scaled(found.lead_speeds, 1.0 / speed_unit().size);

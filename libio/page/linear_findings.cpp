@@ -7,6 +7,7 @@
 #include "libdyn/linear/static_study.hpp"
 #include "libdyn/linear/unbalance_study.hpp"
 #include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/critical.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/page/findings.hpp"
 #include "libio/text/format.hpp"
@@ -231,17 +232,20 @@ std::vector<Sheet> rest_sheets(const ResultView& result) {
 std::vector<Sheet> critical_sheets(const ResultView& result) {
   const auto& found = result_of<CriticalSpeeds>(result).criticals;
   if (found.empty()) return {};
-  return {{"Critical speeds",
-           sheet_table(found, {row_number("number"),
-                               shown("speed", "rpm", ".1f").as("undamped"),
-                               shown("damped_speed", "rpm", ".1f").as("damped"),
-                               shown("damping_ratio", "", ".5f").as("damping ratio"),
-                               shown("whirl"),
-                               {"distance of the undamped one", [&](const Critical& c) {
-                                  const std::string far =
-                                      result.model ? distance_text(c.speed, *result.model) : "";
-                                  return far.empty() ? std::string("-") : far;
-                                }}})}};
+  TableColumns<Critical> columns{row_number("number"),
+                                 shown("speed", "rpm", ".1f").as("undamped"),
+                                 shown("damped_speed", "rpm", ".1f").as("damped"),
+                                 shown("damping_ratio", "", ".5f").as("damping ratio"),
+                                 shown("whirl"),
+                                 {"distance of the undamped one", [&](const Critical& c) {
+                                    const std::string far =
+                                        result.model ? distance_text(c.speed, *result.model) : "";
+                                    return far.empty() ? std::string("-") : far;
+                                  }}};
+  if (std::ranges::any_of(found, [](const Critical& c) { return c.shaft != Critical().shaft; })) {
+    columns.push_back(shown("shaft").as("by"));
+  }
+  return {{"Critical speeds", sheet_table(found, columns)}};
 }
 
 Findings static_findings(const ResultView& result) {
@@ -337,8 +341,9 @@ Findings campbell_findings(const ResultView& result) {
 Findings critical_findings(const ResultView& result) {
   const auto& found = result_of<CriticalSpeeds>(result).criticals;
   if (found.empty()) return {Standing::told, "No table of critical speeds: see the figures."};
-  Findings f{Standing::told, fmt::format("{} critical speeds, the lowest at {}", found.size(),
-                                         speed_text(found.front().speed))};
+  const double lowest = std::ranges::min(found, {}, &Critical::speed).speed;
+  Findings f{Standing::told,
+             fmt::format("{} critical speeds, the lowest at {}", found.size(), speed_text(lowest))};
   if (result.model) {
     f.sentences.push_back(speeds_of_machine(*result.model));
     const double low = std::max(result.model->machine.minimum, 0.0);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "libdyn/linear/critical_over.hpp"
 #include "libdyn/linear/modes_over.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/results/columns.hpp"
@@ -121,6 +122,38 @@ TEST_F(Over, CriticalSpeedsFollowTheStiffness) {
     }
   }
   EXPECT_EQ(kinds("c.h5"), (std::vector<std::string>{"critical_over"}));
+}
+
+// Over the speed of a further shaft, in place of the ratio that the model has: sqrt(k / m) by
+// either shaft, in the plane of both.
+TEST_F(Over, CriticalSpeedsOfTwoShaftsAreAMap) {
+  write("spools.toml", std::string(jeffcott) + "[[rotor]]\nname = \"hp\"\nratio = 1.4\n");
+  const json r = result(
+      {"critical", "spools.toml", "--over", "rotor.hp.speed=500:1500:250rpm", "--out", "map.h5"});
+  EXPECT_EQ(r["shaft"], "hp");
+  ASSERT_EQ(r["branches"].size(), 2u);
+  EXPECT_EQ(r["branches"][0]["shaft"], "shaft");
+  ASSERT_EQ(r["own_branches"].size(), 2u);
+  for (const json& branch : r["own_branches"]) {
+    ASSERT_EQ(branch["speed_rpm"].size(), r["lead_speed_rpm"].size());
+    for (const json& speed : branch["speed_rpm"]) {
+      EXPECT_NEAR(speed, omega / rpm, rounding * omega / rpm);
+    }
+  }
+  EXPECT_EQ(kinds("map.h5"), (std::vector<std::string>{"critical_over"}));
+  const auto found = read_result<CriticalOver>(ResultReader(folder / "map.h5"));
+  EXPECT_EQ(found.shaft, "hp");
+  ASSERT_EQ(found.own_branches.size(), 2u);
+  EXPECT_NEAR(found.own_branches[1].speed(0), omega, rounding * omega);
+  EXPECT_EQ(found.branches.at(1).shaft, "shaft");
+
+  const json both = result({"critical", "spools.toml"})["criticals"];
+  ASSERT_EQ(both.size(), 4u);
+  EXPECT_EQ(both[3]["shaft"], "hp");
+  EXPECT_EQ(both[3]["excitation"], "1.4x");
+  EXPECT_NEAR(both[3]["speed_rpm"], omega / 1.4 / rpm, rounding * omega / rpm);
+  EXPECT_FALSE(
+      result({"critical", "rotor.toml", "--over", "bearing.1.damping=4"}).contains("shaft"));
 }
 
 // At omega: e / (2 zeta), zeta = c / (2 sqrt(k m))
