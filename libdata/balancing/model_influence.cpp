@@ -91,7 +91,7 @@ ModelInfluence model_influence(const Model& model, const std::vector<std::size_t
   found.touched = touched_contacts(bare, speeds);
   Structure unit = linear_structure(bare);
   for (Unbalance& own : unit.unbalances) own.moment = 0.0;
-  unit.bow = {};
+  unit.straighten();
   unit.forces.clear();
   for (std::size_t k = 0; k < planes.size(); ++k) {
     unit.unbalances[planes[k]].moment = 1.0;

@@ -113,8 +113,9 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
     add_rows(others, system.dofs, assembler.point(u.at), {});
   }
   for (const Force& f : model.structure.forces) add_force(others, assembler, system, f);
-  if (!model.structure.bow.z.empty()) {
-    const CVec bow = system.dofs.T.transpose() * assembler.bow();
+  for (int shaft = 0; shaft <= std::ssize(model.structure.rotors); ++shaft) {
+    if (model.structure.bow_of(shaft).z.empty()) continue;
+    const CVec bow = system.dofs.T.transpose() * assembler.bow(shaft);
     for (const Vec& part : {Vec(bow.real()), Vec(bow.imag())}) {
       if (part.squaredNorm() > 0.0) others.push_back(part);
     }

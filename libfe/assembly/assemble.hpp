@@ -99,8 +99,10 @@ class Assembler {
   /// it need none. Between nodes the bow is the line that the shape functions make of its
   /// deflections and slopes there.
   ///
+  /// @param shaft  number of the shaft whose bow it is, from 0; f(t) goes with the angle of that
+  ///               shaft in place of Omega t
   /// @source [Nicholas1976]
-  CVec bow() const;
+  CVec bow(int shaft = 0) const;
 
   using FullEquations = EquationsOfMotion<Sparse>;
   /// Equations of the full vector, as if rigid parts were not there, for motions of a frequency

@@ -50,9 +50,9 @@ CVec Assembler::unbalance_of_shafts(const std::vector<bool>& counts) const {
   return u;
 }
 
-CVec Assembler::bow() const {
+CVec Assembler::bow(int shaft) const {
   CVec force = CVec::Zero(dofs().full_size);
-  const std::vector<BowState> states = bow_states(structure_->bow, mesh().z);
+  const std::vector<BowState> states = bow_states(structure_->bow_of(shaft), mesh().z);
   if (states.empty()) return force;
   // x + i y = r turns with the shaft: u_x = r, u_y = -i r, and theta_y = x', theta_x = -y'
   CVec displacement = CVec::Zero(dofs().full_size);
@@ -61,6 +61,7 @@ CVec Assembler::bow() const {
     displacement.segment<4>(4 * i) << r, Complex(0.0, -1.0) * r, Complex(0.0, 1.0) * slope, slope;
   }
   for (std::size_t e = 0; e < mesh().elements.size(); ++e) {
+    if (mesh().elements[e].shaft != shaft) continue;
     const std::vector<int> index = indices(dofs(), {Point::Kind::node, mesh().elements[e].left},
                                            {Point::Kind::node, mesh().elements[e].right});
     for (Beam beam : beams_along(e, *structure_, mesh())) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -34,6 +36,41 @@ Excitation excitation_of(const Force& f, const Assembler& assembler) {
   return {f.order, f.frequency, Growth::none, amplitude_of(f, assembler), f.name};
 }
 
+/// The load of a shaft with a ratio of speeds, as one of the angle of the first shaft: against its
+/// sense Re(u e^(-i alpha)) is Re(conj(u) e^(i alpha)).
+CVec turned_by(double speed, CVec amplitude) {
+  return speed < 0.0 ? CVec(amplitude.conjugate()) : amplitude;
+}
+
+/// Those of further shafts whose bow loads them; of their angles or, where they stand, constant.
+std::vector<Excitation> other_bows(const Assembler& assembler) {
+  std::vector<Excitation> all;
+  const std::vector<Rotor>& rotors = assembler.structure().rotors;
+  for (std::size_t i = 0; i < rotors.size(); ++i) {
+    const Rotor& rotor = rotors[i];
+    if (rotor.bow.z.empty()) continue;
+    Excitation bow{.amplitude = assembler.bow(static_cast<int>(i) + 1),
+                   .names = "bow of " + rotor.name};
+    if (rotor.has_own_speed()) {
+      bow.amplitude = turned_by(std::ranges::min(rotor.own), std::move(bow.amplitude));
+      bow.frequency = rotor.own.size() == 1 ? std::abs(rotor.own.front()) : 0.0;
+      bow.rotor = &rotor;
+    } else {
+      bow.amplitude = turned_by(rotor.ratio, std::move(bow.amplitude));
+      bow.order = std::abs(rotor.ratio);
+    }
+    all.push_back(std::move(bow));
+  }
+  return all;
+}
+
+/// Whether some further shafts are bent.
+template <class Is>
+bool any_bow(const Structure& structure, const Is& is) {
+  return std::ranges::any_of(structure.rotors,
+                             [&](const Rotor& rotor) { return !rotor.bow.z.empty() && is(rotor); });
+}
+
 /// Ratios of the speeds of shafts with unbalance to that of the first one, each once; of those that
 /// turn at its own speed and of those that stand there is nothing to be said.
 std::vector<double> other_unbalanced_ratios(const Structure& structure) {
@@ -49,13 +86,11 @@ std::vector<double> other_unbalanced_ratios(const Structure& structure) {
   return ratios;
 }
 
-/// The unbalance of shafts that turn at another speed than the first one. Against its sense
-/// Re(u e^(-i alpha)) is Re(conj(u) e^(i alpha)).
+/// The unbalance of shafts that turn at another speed than the first one.
 std::vector<Excitation> other_unbalances(const Assembler& assembler) {
   std::vector<Excitation> all;
   for (const double ratio : other_unbalanced_ratios(assembler.structure())) {
-    CVec amplitude = ratio * ratio * assembler.unbalance(ratio);
-    if (ratio < 0.0) amplitude = amplitude.conjugate().eval();
+    CVec amplitude = turned_by(ratio, ratio * ratio * assembler.unbalance(ratio));
     std::string names;
     for (const Rotor& rotor : assembler.structure().rotors) {
       if (rotor.ratio != ratio) continue;
@@ -70,10 +105,9 @@ std::vector<Excitation> other_unbalances(const Assembler& assembler) {
     if (!rotor.has_own_speed()) continue;
     CVec amplitude = assembler.unbalance_of(rotor);
     if (amplitude.isZero(0.0)) continue;
-    if (std::ranges::min(rotor.own) < 0.0) amplitude = amplitude.conjugate().eval();
     all.push_back({.frequency = rotor.own.size() == 1 ? std::abs(rotor.own.front()) : 0.0,
                    .growth = Growth::unbalance,
-                   .amplitude = std::move(amplitude),
+                   .amplitude = turned_by(std::ranges::min(rotor.own), std::move(amplitude)),
                    .names = "unbalance of " + rotor.name,
                    .rotor = &rotor});
   }
@@ -124,6 +158,9 @@ std::vector<Excitation> constant_excitations(const Assembler& assembler) {
   for (const Force& f : assembler.structure().forces) {
     if (f.is_constant()) all.push_back(excitation_of(f, assembler));
   }
+  for (Excitation& e : other_bows(assembler)) {
+    if (e.is_constant()) all.push_back(std::move(e));
+  }
   return all;
 }
 
@@ -134,8 +171,8 @@ std::vector<Excitation> synchronous_excitations(const Assembler& assembler) {
     all.push_back({.order = 1.0, .growth = Growth::unbalance, .amplitude = assembler.unbalance()});
   }
   if (!s.bow.z.empty()) all.push_back({.order = 1.0, .amplitude = assembler.bow()});
-  for (Excitation& e : other_unbalances(assembler)) {
-    if (e.is_synchronous()) all.push_back(std::move(e));
+  for (const auto& of : {other_unbalances(assembler), other_bows(assembler)}) {
+    std::ranges::copy_if(of, std::back_inserter(all), &Excitation::is_synchronous);
   }
   for (const Force& f : s.forces) {
     if (f.is_synchronous()) all.push_back(excitation_of(f, assembler));
@@ -158,8 +195,10 @@ std::vector<Excitation> other_excitations(const Assembler& assembler) {
   for (const Force& f : assembler.structure().forces) {
     if (!f.is_constant() && !f.is_synchronous()) add(excitation_of(f, assembler));
   }
-  for (const Excitation& e : other_unbalances(assembler)) {
-    if (!e.is_synchronous()) add(e);
+  for (const auto& of : {other_unbalances(assembler), other_bows(assembler)}) {
+    for (const Excitation& e : of) {
+      if (!e.is_constant() && !e.is_synchronous()) add(e);
+    }
   }
   std::vector<Excitation> excitations;
   for (auto& [key, excitation] : all) excitations.push_back(std::move(excitation));
@@ -223,7 +262,8 @@ double highest_frequency(const Structure& structure, double Omega) {
     highest = std::max(highest, std::abs(ratio * Omega));
   }
   for (const Rotor& rotor : structure.rotors) {
-    if (rotor.has_own_speed()) highest = std::max(highest, std::abs(rotor.speed_at(Omega)));
+    const bool counts = rotor.has_own_speed() || !rotor.bow.z.empty();
+    if (counts) highest = std::max(highest, std::abs(rotor.speed_at(Omega)));
   }
   return highest;
 }
@@ -234,11 +274,17 @@ bool has_oscillating_force(const Structure& structure) {
                      [](const Force& f) { return !f.is_constant() && !f.is_synchronous(); }) ||
          std::ranges::any_of(other_unbalanced_ratios(structure),
                              [](double ratio) { return std::abs(ratio) != 1.0; }) ||
-         (structure.rotor_of_own_speed() && !structure.unbalances.empty());
+         (structure.rotor_of_own_speed() && !structure.unbalances.empty()) ||
+         any_bow(structure, [](const Rotor& rotor) {
+           const double ratio = std::abs(rotor.ratio);
+           return rotor.has_own_speed() || (ratio != 1.0 && ratio != 0.0);
+         });
 }
 
 bool has_constant_force(const Structure& structure) {
-  return any_of(structure, &Force::is_constant);
+  return any_of(structure, &Force::is_constant) || any_bow(structure, [](const Rotor& rotor) {
+           return !rotor.has_own_speed() && rotor.ratio == 0.0;
+         });
 }
 
 bool has_synchronous_force(const Structure& structure) {
@@ -247,7 +293,9 @@ bool has_synchronous_force(const Structure& structure) {
 
 bool has_synchronous_load(const Structure& structure) {
   return !structure.unbalances.empty() || !structure.bow.z.empty() ||
-         has_synchronous_force(structure);
+         has_synchronous_force(structure) || any_bow(structure, [](const Rotor& rotor) {
+           return !rotor.has_own_speed() && std::abs(rotor.ratio) == 1.0;
+         });
 }
 
 }  // namespace whirl::inline fe

@@ -40,12 +40,12 @@ struct Excitation {
   std::string label() const;
 };
 
-/// Gravity and constant forces, one after the other.
+/// Gravity, constant forces and the bow of shafts that stand, one after the other.
 std::vector<Excitation> constant_excitations(const Assembler& assembler);
 /// All that has the frequency of the speed, one after the other: unbalance, bow, forces of order 1,
-/// unbalance of shafts that turn against the first one at its speed.
+/// unbalance of shafts that turn against the first one at its speed, bow of shafts of that speed.
 std::vector<Excitation> synchronous_excitations(const Assembler& assembler);
-/// Forces of other frequencies and the unbalance of shafts of other speeds, those of one frequency
+/// Forces of other frequencies, unbalance and bow of shafts of other speeds, those of one frequency
 /// and growth together; orders before frequencies, ascending.
 std::vector<Excitation> other_excitations(const Assembler& assembler);
 
@@ -58,7 +58,7 @@ bool acts_at(const std::vector<Excitation>& excitations, double Omega);
 
 /// Sum of amplitudes at a speed, a full vector [N, N.m].
 CVec sum_at(const std::vector<Excitation>& excitations, const Assembler& assembler, double Omega);
-/// Gravity and constant forces at a speed [N, N.m].
+/// The constant ones at a speed [N, N.m].
 Vec static_load(const Assembler& assembler, double Omega);
 /// Whether that is the same at all speeds.
 bool is_static_load_steady(const Assembler& assembler);

@@ -16,6 +16,16 @@ double Rotor::speed_at(double Omega) const {
   return own[i - 1] + share * (own[i] - own[i - 1]);
 }
 
+bool Structure::is_bent() const {
+  return !bow.z.empty() ||
+         std::ranges::any_of(rotors, [](const Rotor& rotor) { return !rotor.bow.z.empty(); });
+}
+
+void Structure::straighten() {
+  bow = {};
+  for (Rotor& rotor : rotors) rotor.bow = {};
+}
+
 const Rotor* Structure::rotor_of_own_speed() const {
   const auto found = std::ranges::find_if(rotors, &Rotor::has_own_speed);
   return found == rotors.end() ? nullptr : &*found;

@@ -70,6 +70,15 @@ struct Segment {
   }
 };
 
+/// Deflections of a shaft without any force on it, at t = 0; they turn with the shaft.
+///
+/// Between its positions the bow is the natural cubic spline, beyond them straight.
+struct Bow {
+  std::vector<double> z;     ///< positions, ascending [m]; empty: the shaft is straight
+  std::vector<double> x, y;  ///< deflection there [m]
+  bool operator==(const Bow&) const = default;
+};
+
 /// A further shaft, within the first one, around it or beside it, whose speed has a given ratio to
 /// that of the first.
 struct Rotor {
@@ -81,6 +90,7 @@ struct Rotor {
   double z = 0.0;              ///< of its left end, along the axis of the first shaft [m]
   std::vector<Segment> shaft;  ///< left to right
   Where where{};
+  Bow bow{};  ///< of its shaft, at positions along the axis of the first one
 
   bool operator==(const Rotor&) const = default;
 
@@ -278,15 +288,6 @@ struct LinearizedConnection {
   std::string_view kind = "oil film";  ///< or "rolling bearing"
 };
 
-/// Deflections of the shaft without any force on it, at t = 0; they turn with the shaft.
-///
-/// Between its positions the bow is the natural cubic spline, beyond them straight.
-struct Bow {
-  std::vector<double> z;     ///< positions, ascending [m]; empty: the shaft is straight
-  std::vector<double> x, y;  ///< deflection there [m]
-  bool operator==(const Bow&) const = default;
-};
-
 /// Damping ratios of modes at rest, beside all other damping.
 struct ModalDamping {
   std::vector<double> ratios;  ///< of the lowest modes that deform; empty: none
@@ -340,6 +341,14 @@ struct Structure {
   const std::vector<Segment>& segments_of(int number) const {
     return number == 0 ? shaft : rotors.at(static_cast<std::size_t>(number) - 1).shaft;
   }
+  /// @param number  of a shaft, from 0
+  const Bow& bow_of(int number) const {
+    return number == 0 ? bow : rotors.at(static_cast<std::size_t>(number) - 1).bow;
+  }
+  /// Whether one of the shafts is.
+  bool is_bent() const;
+  /// Takes the bow of every shaft away.
+  void straighten();
   /// The first of the rotors whose speed is their own; null: there is none.
   const Rotor* rotor_of_own_speed() const;
   /// Number of the shaft of a rotor, from 0; an empty name is the first shaft, nothing is no rotor.

@@ -137,6 +137,10 @@ void check_places(ModelReading& reading) {
     return segment.length > 0.0 && segment.left.outer > 0.0 && segment.right.outer > 0.0;
   };
   for (const Rotor& rotor : s.rotors) {
+    if (!rotor.bow.z.empty() && rotor.shaft.empty()) {
+      reading.problems.push_back(
+          {rotor.where, "rotor." + rotor.name + ".bow", "a bow is one of a shaft: there is none"});
+    }
     const bool is_used = !rotor.shaft.empty() || std::ranges::any_of(s.bodies, [&](const Body& b) {
       return b.rotor == rotor.name;
     });

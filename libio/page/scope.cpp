@@ -133,7 +133,7 @@ std::string left_out_of_lateral(const std::vector<const ResultView*>& results) {
     }
     if (!result->model) continue;
     const Structure& s = result->model->structure;
-    has_bow = has_bow || !s.bow.z.empty();
+    has_bow = has_bow || s.is_bent();
     if (verb_of(*result) != "simulate") continue;
     has_rub = has_rub || !result->model->contacts.empty();
     has_loss = has_loss || std::any_of(s.unbalances.begin(), s.unbalances.end(),

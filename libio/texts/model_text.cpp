@@ -154,6 +154,10 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
   if (!s.bow.z.empty()) {
     table.row({"bow", format_length(largest_deflection(s.bow)) + " at most"});
   }
+  for (const Rotor& rotor : s.rotors) {
+    if (rotor.bow.z.empty()) continue;
+    table.row({"bow of " + rotor.name, format_length(largest_deflection(rotor.bow)) + " at most"});
+  }
   if (!model.films.empty()) table.row({"oil films", fmt::format("{}", model.films.size())});
   if (const auto rolling = rolling_bearings(model.contacts).size(); rolling > 0) {
     table.row({"rolling bearings", fmt::format("{}", rolling)});

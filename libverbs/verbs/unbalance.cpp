@@ -19,7 +19,8 @@ namespace {
 /// rest, where films carry nothing.
 std::vector<double> speeds_of(const Model& model) {
   std::vector<double> speeds = usual_speeds(model.speed);
-  const bool is_loaded_at_rest = !model.structure.bow.z.empty() || !model.structure.forces.empty();
+  const Structure& s = model.structure;
+  const bool is_loaded_at_rest = s.is_bent() || !s.forces.empty();
   if (has_linear_films(model) && is_loaded_at_rest) speeds.erase(speeds.begin());
   return speeds;
 }

@@ -69,4 +69,62 @@ TEST(BowMotion, IsInTheFewShapesOfAReduction) {
   }
 }
 
+/// The same with a tube around it that turns the other way and is bent instead of it.
+Model bent_tube(double Omega, ReductionMethod method) {
+  Model model = bent_rotor(Omega, method);
+  Structure& s = model.structure;
+  s.unbalances.clear();
+  Segment tube = cylinder(0.6, 0.09, 6);
+  tube.left.inner = tube.right.inner = 0.07;
+  s.rotors = {{.name = "tube", .ratio = -1.5, .z = 0.1, .shaft = {tube}, .bow = s.bow}};
+  s.bow = {};
+  const auto on_tube = [](double z) {
+    return Station{.kind = Station::Kind::position, .z = z, .rotor = "tube"};
+  };
+  s.bearings.push_back(bearing(on_tube(0.1), orthotropic(4e6, 6e6, 800.0, 500.0)));
+  s.bearings.push_back(connect(at(0.7), on_tube(0.7), orthotropic(5e6, 4e6, 300.0, 400.0)));
+  return model;
+}
+
+// The response of `unbalance` to the bow of a further shaft is a motion of its order.
+TEST(BowMotion, OfAFurtherShaftIsOneOfItsOrder) {
+  constexpr double Omega = 200.0, order = 1.5;
+  const Scene scene = make_scene(bent_tube(Omega, ReductionMethod::none));
+  const std::vector<Excitation> loads = other_excitations(scene.assembler);
+  ASSERT_EQ(loads.size(), 1u);
+  ASSERT_EQ(loads[0].order, order);
+  CVec q;
+  for_each_oscillation(scene.assembler, loads[0], {Omega},
+                       [&](Eigen::Index, double, const CVec& full) { q = full; });
+  const auto n = q.size();
+  ASSERT_EQ(scene.contacts.coordinates(), n);
+  for (const double phase : {0.0, 1.1, 4.0}) {
+    const CVec turned = q * std::polar(1.0, order * phase);
+    Vec y(2 * n), a(n);
+    y << turned.real(), (turned * Complex(0.0, order * Omega)).real();
+    scene.contacts.acceleration(phase, y.data(), a.data());
+    const Vec expected = -order * order * Omega * Omega * turned.real();
+    EXPECT_LT((a - expected).norm(), 1e-6 * expected.norm()) << phase;
+  }
+}
+
+// The reduction has the shape of that bow, too.
+TEST(BowMotion, OfAFurtherShaftIsInTheFewShapesOfAReduction) {
+  const Model model = bent_tube(0.01, ReductionMethod::modal_residual);
+  const Scene scene = make_scene(model);
+  const ReducedSystem& r = scene.reduced;
+  EXPECT_LT(r.size(), 24);
+  const ReducedExcitation& load = scene.contacts.excitations().back();
+  CVec reduced(r.size());
+  reduced.real() = load.cosine;
+  reduced.imag() = -load.sine;
+  const CVec eta = DenseLu<CMat>(CMat(r.K.cast<Complex>())).solve(CMat(r.M * reduced));
+  const CVec full = scene.displacement_map() * eta;
+  CVec expected;
+  for_each_oscillation(scene.assembler, other_excitations(scene.assembler).at(0), {0.01},
+                       [&](Eigen::Index, double, const CVec& q) { expected = q; });
+  EXPECT_LT((full - expected).norm(), 1e-5 * expected.norm());
+  EXPECT_GT(expected.cwiseAbs().maxCoeff(), 5e-5);
+}
+
 }  // namespace whirl::bow_motion_test

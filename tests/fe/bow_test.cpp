@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "libbase/error.hpp"
 #include "libfe/analyses/unbalance.hpp"
+#include "libfe/assembly/excitations.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::bow_test {
@@ -119,6 +123,135 @@ TEST(Bow, IsTheDeflectionAtRest) {
     EXPECT_NEAR(std::abs((*full)(x + 3) - states[i].slope), 0.0, 1e-13) << i;
     EXPECT_NEAR(std::abs((*full)(x + 2) - Complex(0.0, 1.0) * states[i].slope), 0.0, 1e-13) << i;
   }
+}
+
+Station outer(double z) {
+  return {.kind = Station::Kind::position, .z = z, .rotor = "outer"};
+}
+
+/// A straight shaft and, from z = 0.2 m and without any link to it, a tube that is bent.
+struct BentTube {
+  double ratio = 1.5;
+  Bow bow{.z = {0.2, 0.35, 0.6}, .x = {0.0, 8e-5, 0.0}, .y = {0.0, 5e-5, -2e-5}};
+
+  static Segment tube() {
+    Segment all = cylinder(0.4, 0.08, 4);
+    all.left.inner = all.right.inner = 0.06;
+    return all;
+  }
+  Structure both() const {
+    Structure s{.shaft = {cylinder(0.8, 0.03, 8)},
+                .disks = {{.at = outer(0.4), .m = 6.0, .Id = 0.02, .Ip = 0.04}},
+                .bearings = {bearing(at(0.0), isotropic(4e6, 800.0)),
+                             bearing(at(0.8), isotropic(5e6, 600.0)),
+                             bearing(outer(0.2), isotropic(6e6, 500.0)),
+                             bearing(outer(0.6), isotropic(7e6, 400.0))}};
+    s.rotors = {{.name = "outer", .ratio = ratio, .z = 0.2, .shaft = {tube()}, .bow = bow}};
+    return s;
+  }
+  /// The tube, from z = 0.
+  Structure alone() const {
+    Bow moved = bow;
+    for (double& z : moved.z) z -= 0.2;
+    return {.shaft = {tube()},
+            .disks = {{.at = at(0.2), .m = 6.0, .Id = 0.02, .Ip = 0.04}},
+            .bearings = {bearing(at(0.0), isotropic(6e6, 500.0)),
+                         bearing(at(0.4), isotropic(7e6, 400.0))},
+            .bow = moved};
+  }
+};
+
+/// The full vector under the only load of another frequency, at a speed.
+CVec forced(const Assembler& assembler, double Omega) {
+  const std::vector<Excitation> loads = other_excitations(assembler);
+  if (loads.size() != 1) throw NumericalError("expected one load");
+  CVec found;
+  for_each_oscillation(assembler, loads[0], {Omega},
+                       [&](Eigen::Index, double, const CVec& full) { found = full; });
+  return found;
+}
+
+constexpr int nodes_before = 9, nodes_of_tube = 5;
+
+// A further shaft is bent as if it were alone at its own speed, and bends no other one.
+TEST(Bow, OfAFurtherShaftIsOneOfItsOwnSpeed) {
+  constexpr double Omega = 420.0;
+  BentTube tube;
+  for (const bool has_own_speed : {false, true}) {
+    Structure s = tube.both();
+    if (has_own_speed) s.rotors[0].lead = {0.0}, s.rotors[0].own = {1.5 * Omega};
+    const Assembler assembler(s), of_tube(tube.alone());
+    EXPECT_EQ(other_excitations(assembler).at(0).names, "bow of outer");
+    EXPECT_TRUE(has_oscillating_force(s));
+    EXPECT_DOUBLE_EQ(highest_frequency(s, Omega), 1.5 * Omega);
+    const auto expected = UnbalanceSolver(of_tube).at(1.5 * Omega);
+    ASSERT_TRUE(expected);
+    const CVec full = forced(assembler, Omega);
+    const CVec own = full.segment(4 * nodes_before, 4 * nodes_of_tube);
+    EXPECT_LT((own - *expected).norm(), 1e-12 * expected->norm());
+    EXPECT_EQ(full.head(4 * nodes_before).norm(), 0.0);
+    EXPECT_FALSE(acts_at(synchronous_excitations(assembler), 0.0));
+  }
+}
+
+// Of the speed of the first shaft it loads as that one's own bow does.
+TEST(Bow, OfAFurtherShaftOfTheSameSpeedIsSynchronous) {
+  BentTube tube{1.0};
+  const Structure s = tube.both();
+  EXPECT_FALSE(has_oscillating_force(s));
+  EXPECT_TRUE(has_synchronous_load(s));
+  const auto full = UnbalanceSolver(Assembler(s)).at(300.0);
+  const auto expected = UnbalanceSolver(Assembler(tube.alone())).at(300.0);
+  ASSERT_TRUE(full && expected);
+  const CVec own = full->segment(4 * nodes_before, 4 * nodes_of_tube);
+  EXPECT_LT((own - *expected).norm(), 1e-12 * expected->norm());
+}
+
+// Against the first shaft the load whirls that way: y is ahead of x, all mirrored at the plane of
+// x.
+TEST(Bow, OfAShaftThatTurnsTheOtherWayWhirlsThatWay) {
+  constexpr double Omega = 420.0;
+  for (const double ratio : {-1.5, -1.0}) {
+    BentTube tube{ratio};
+    const Assembler assembler(tube.both());
+    for (double& y : tube.bow.y) y = -y;  // mirrored
+    const auto expected = UnbalanceSolver(Assembler(tube.alone())).at(-ratio * Omega);
+    const CVec full =
+        ratio == -1.0 ? *UnbalanceSolver(assembler).at(Omega) : forced(assembler, Omega);
+    ASSERT_TRUE(expected);
+    const double rounding = 1e-12 * expected->norm();
+    for (int i = 0; i < nodes_of_tube; ++i) {
+      const Eigen::Index x = 4 * (nodes_before + i), y = x + 1;
+      EXPECT_NEAR(std::abs(full(x) - (*expected)(4 * i)), 0.0, rounding) << i;
+      EXPECT_NEAR(std::abs(full(y) - Complex(0.0, 1.0) * full(x)), 0.0, rounding) << i;
+    }
+  }
+}
+
+// A shaft that stands is bent for good.
+TEST(Bow, OfAShaftThatStandsIsConstant) {
+  const BentTube tube{0.0};
+  const Structure s = tube.both();
+  const Assembler assembler(s);
+  EXPECT_TRUE(has_constant_force(s));
+  EXPECT_TRUE(other_excitations(assembler).empty());
+  const Vec load = static_load(assembler, 300.0);
+  const Vec expected = Assembler(tube.alone()).bow().real();
+  EXPECT_LT((load.segment(4 * nodes_before, 4 * nodes_of_tube) - expected).norm(),
+            1e-12 * expected.norm());
+  EXPECT_GT(expected.norm(), 1.0);
+}
+
+// The bow of the first shaft is not that of those around it.
+TEST(Bow, OfTheFirstShaftBendsNoOther) {
+  Structure s = BentTube{1.0}.both();
+  s.straighten();
+  EXPECT_FALSE(s.is_bent());
+  s.bow = {.z = {0.0, 0.4, 0.8}, .x = {0.0, 1e-4, 0.0}, .y = {0.0, 0.0, 0.0}};
+  EXPECT_TRUE(s.is_bent());
+  const CVec load = Assembler(s).bow();
+  EXPECT_GT(load.head(4 * nodes_before).norm(), 1.0);
+  EXPECT_EQ(load.tail(4 * nodes_of_tube).norm(), 0.0);
 }
 
 }  // namespace whirl::bow_test

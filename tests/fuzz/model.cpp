@@ -17,7 +17,7 @@ namespace {
 bool names_file(const whirl::ConfigNode& node) {
   for (const auto& [key, value] : node.entries) {
     const bool is_text = value.kind == whirl::ConfigNode::Kind::string;
-    if (key == "table" && is_text && value.text.find('\n') == std::string::npos) return true;
+    if ((key == "table" || key == "bow") && is_text && value.text.find('\n') == std::string::npos) return true;
     if (names_file(value)) return true;
   }
   return std::any_of(node.items.begin(), node.items.end(), names_file);
@@ -27,7 +27,7 @@ bool names_file(const whirl::ConfigNode& node) {
 void require_no_file(const std::string& text) {
   const whirl::ConfigNode root = whirl::parse_toml(text, "stored.toml");
   whirl::parse_model(text, "stored.toml");
-  for (const char* owner : {"shaft", "bearing", "seal", "bow"}) {
+  for (const char* owner : {"shaft", "bearing", "seal", "bow", "rotor"}) {
     const whirl::ConfigNode* node = root.find(owner);
     if (node && names_file(*node)) std::abort();
   }

@@ -71,6 +71,25 @@ TEST(ModelBow, NeedsATableAndAShaft) {
             "m:6:9: bow.table: a bow is one of a shaft: there is none\n");
 }
 
+// Positions are along the axis of the first shaft, where stations of the rotor are, too.
+TEST_F(BowFile, IsOneOfAFurtherShaftToo) {
+  std::ofstream(folder / "outer.csv") << "position [mm],y [um]\n100,0\n200,30\n400,0\n";
+  const std::string outer = "[[rotor]]\nname = \"outer\"\nratio = -1.5\nposition = 0.1\n";
+  const std::string shaft =
+      "[[shaft]]\nrotor = \"outer\"\nmaterial = \"steel\"\nlength = 0.3\nouter_diameter = 0.1\n"
+      "inner_diameter = 0.08\n[[bearing]]\nrotor = \"outer\"\nat = 0.1\nstiffness = 1e7\n"
+      "[[bearing]]\nrotor = \"outer\"\nat = 0.4\nstiffness = 1e7\n";
+  const std::string bent = outer + "bow = \"outer.csv\"\n";
+  const Model model = parse_model(rotor().source + bent + shaft, "m", {}, folder);
+  for (const Model& m : {model, parse_model(model.source, "result.h5")}) {
+    EXPECT_TRUE(m.structure.bow.z.empty());
+    EXPECT_DOUBLE_EQ(m.structure.rotors[0].bow.z[1], 0.2);
+    EXPECT_DOUBLE_EQ(m.structure.rotors[0].bow.y[1], 30e-6);
+  }
+  EXPECT_EQ(joined(problems(rotor().source + outer + "bow = \"\"\"position,x\n0,0\n1,1\n\"\"\"\n")),
+            "m:12:1: rotor.outer.bow: a bow is one of a shaft: there is none\n");
+}
+
 TEST(ModelDamping, OfModesIsOneRatioOrAList) {
   const auto modal = [](const std::string& value) {
     return rotor("[damping]\nmodal = " + value + "\n").structure.modal_damping;

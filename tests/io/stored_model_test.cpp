@@ -33,7 +33,9 @@ std::vector<std::string> rotors_with(const std::string& file) {
   const std::string quoted = "\"" + file + "\"\n";
   return {rotor_with("table = " + quoted, plain_bearing, ""),
           rotor_with(plain_shaft, "table = " + quoted, ""),
-          rotor_with(plain_shaft, plain_bearing, "[bow]\ntable = " + quoted)};
+          rotor_with(plain_shaft, plain_bearing, "[bow]\ntable = " + quoted),
+          rotor_with(plain_shaft, plain_bearing,
+                     "[[rotor]]\nname = \"outer\"\nratio = 1.5\nbow = " + quoted)};
 }
 
 std::string problems_of(const std::string& text, const NamedFiles& files,

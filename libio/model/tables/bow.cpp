@@ -25,7 +25,7 @@ void read_bow(ModelReading& reading) {
 
 ModelTable bow_table() {
   return {.name = "bow",
-          .meaning = "how the shaft is bent without forces; it turns with the shaft",
+          .meaning = "how the first shaft is bent without forces; it turns with the shaft",
           .form = ModelTable::Form::one,
           .read = read_bow,
           .example = "table = \"z, x\\n0, 0\\n1, 1\"\n",

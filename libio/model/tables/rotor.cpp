@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libio/model/bow_table.hpp"
 #include "libio/model/model_reading.hpp"
 #include "libio/model/model_table.hpp"
 #include "libio/text/units.hpp"
@@ -54,7 +55,7 @@ void read_own_speeds(TableReader& table, Rotor& rotor) {
 }
 
 void read_rotors(ModelReading& reading) {
-  reading.for_each("rotor", [&](TableReader& table, std::size_t) {
+  reading.for_each("rotor", [&](TableReader& table, std::size_t item) {
     Rotor rotor;
     rotor.where = table.where();
     if (const auto name = table.string("name", true)) rotor.name = *name;
@@ -68,6 +69,11 @@ void read_rotors(ModelReading& reading) {
     read_own_speeds(table, rotor);
     if (std::abs(rotor.ratio) > 1000.0) {
       table.problem("ratio", fmt::format("found {:g}, expected -1000 to 1000", rotor.ratio));
+    }
+    if (const auto from = reading.text_of(table, "bow", "rotor", item, bow_columns_named_in)) {
+      std::vector<Problem> wrong;
+      rotor.bow = parse_bow_table(from->text, from->name, wrong, &reading.doubts);
+      reading.add_problems(wrong);
     }
     reading.model.structure.rotors.push_back(std::move(rotor));
   });
@@ -84,10 +90,12 @@ ModelTable rotor_table() {
       .example =
           "name = \"outer\"\n"
           "ratio = 1.5\n",
-      .notes = {{"speed",
-                 "its own, in place of a ratio, whatever that of the first shaft; below 0: "
-                 "against it"},
-                {"speeds", "likewise a table: rows [speed of the first shaft, own speed]"}}};
+      .notes = {
+          {"speed",
+           "its own, in place of a ratio, whatever that of the first shaft; below 0: "
+           "against it"},
+          {"speeds", "likewise a table: rows [speed of the first shaft, own speed]"},
+          {"bow", "file with deflections of its shaft against position, as that of a [bow]"}}};
 }
 
 }  // namespace whirl::inline io
