@@ -2,6 +2,7 @@
 
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/assembly/support_equations.hpp"
+#include "libfe/mesh/elements/gear.hpp"
 #include "libfe/parts/structure.hpp"
 
 namespace whirl::inline fe {
@@ -26,6 +27,24 @@ void add_rows(const Sparse& A, int row, std::vector<Triplet>& to) {
     for (Sparse::InnerIterator it(A, j); it; ++it) {
       to.emplace_back(row + static_cast<int>(it.row()), j, it.value());
     }
+  }
+}
+
+/// Forces of driving on driven gears, the first of them in a row: those that hold the driving one.
+void add_teeth(const Assembler& assembler, int row, std::vector<Triplet>& K,
+               std::vector<Triplet>& C) {
+  const DofMap& dofs = assembler.dofs();
+  for (const GearPair& gears : assembler.structure().gears) {
+    const Point driving = assembler.point(gears.driving), driven = assembler.point(gears.driven);
+    const auto teeth = matrices(gears, assembler.spin_speed(driving, 1.0) > 0.0 ? 1.0 : -1.0);
+    for (int j = 0; j < 8; ++j) {
+      const int column = dofs.full_index(j < 4 ? driving : driven, j % 4);
+      for (int i = 0; i < 2 && column >= 0; ++i) {
+        K.emplace_back(row + i, column, teeth.K(i, j));
+        C.emplace_back(row + i, column, teeth.C(i, j));
+      }
+    }
+    row += 2;
   }
 }
 
@@ -111,6 +130,10 @@ std::vector<CarryingPart> carrying_parts(const Assembler& assembler) {
     parts.push_back({support->sensors > 0 ? "magnetic bearing" : "support", support->name + number,
                      forces[i].from, forces[i].to});
   }
+  for (const GearPair& gears : s.gears) {
+    parts.push_back(
+        {"gear", gears.name, assembler.point(gears.driving), assembler.point(gears.driven)});
+  }
   return parts;
 }
 
@@ -160,6 +183,7 @@ ConnectionForces::ConnectionForces(const Assembler& assembler, double Omega, dou
     add_rows(f.M, row, M_of);
     row += 2;
   }
+  add_teeth(assembler, row, K_of, C_of);
   const auto matrix = [&](const std::vector<Triplet>& triplets) {
     Sparse A(static_cast<Eigen::Index>(2 * parts.size()), dofs.full_size);
     A.setFromTriplets(triplets.begin(), triplets.end());

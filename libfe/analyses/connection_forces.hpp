@@ -11,9 +11,11 @@
 
 namespace whirl::inline fe {
 
-/// A bearing, seal, link or linearized oil film of a structure, or a support where it stands.
+/// A bearing, seal, link or linearized oil film of a structure, a support where it stands, or the
+/// teeth of a pair of gears.
 struct CarryingPart {
-  std::string_view kind;  ///< "bearing", "seal", "link", "oil film", "support", "magnetic bearing"
+  /// "bearing", "seal", "link", "oil film", "support", "magnetic bearing", "gear"
+  std::string_view kind;
   std::string name;
   Point from, to;         ///< the force acts from the first on the second
   bool is_rigid = false;  ///< the force follows from the equations of motion
@@ -31,7 +33,7 @@ struct CarryingPart {
   }
 };
 
-/// The same parts in the order bearings, seals, links, oil films, supports.
+/// The same parts in the order bearings, seals, links, oil films, supports, gears.
 std::vector<CarryingPart> carrying_parts(const Assembler& assembler);
 
 /// How a force on a rigid part is made of the equations of motion of all points.
@@ -49,7 +51,8 @@ enum class RigidRows {
 ///
 /// With d = u_from - u_to an elastic part has F = K d + C d' + M d'', a rigid one what is missing
 /// in the equations of motion of its node, f - M q'' - (C + Omega G) q' - (K + Omega H) q. Moments
-/// of clamps are not told.
+/// of clamps are not told. The teeth of gears push along their line of action, by the motion of
+/// both wheels with their tilts.
 struct ConnectionForces {
   Sparse K, C, M, L;  ///< 2 parts x full vector [N/m ...], [N.s/m ...], [kg ...], [-]
 

@@ -39,7 +39,7 @@ StaticEquilibrium with_bearing_loads(const Assembler& assembler, const System& s
   for (const CarryingPart& part : carrying_parts(assembler)) {
     const BearingLoad carried{part.name, forces.segment<2>(row)};
     row += 2;
-    if (part.kind == "link") {
+    if (part.kind == "link" || part.kind == "gear") {
       result.links.push_back({carried});
     } else if (part.kind != "oil film") {
       result.bearings.push_back(carried);

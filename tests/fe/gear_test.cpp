@@ -10,6 +10,7 @@
 
 #include "libbase/error.hpp"
 #include "libfe/analyses/modes.hpp"
+#include "libfe/analyses/static.hpp"
 #include "libfe/assembly/assemble.hpp"
 #include "tests/support/rotors.hpp"
 
@@ -97,6 +98,24 @@ TEST(Gears, StiffenOneDirectionOfTwoBodies) {
   const Complex x = last.shape(0), y = last.shape(1);
   EXPECT_NEAR(std::abs(x * std::sin(angle) - y * std::cos(angle)), 0.0, 1e-9 * std::abs(y));
   EXPECT_NEAR(std::abs(last.shape(2) + x), 0.0, 1e-9 * std::abs(y));
+}
+
+// Teeth of stiffness k between bodies on springs K, one of which is pushed by f along n: they give
+// way by d = f / (K + 2 k) and push with k d, which its own spring misses and the other one has.
+TEST(Gears, PushAlongTheirLineOfAction) {
+  Structure s = two_bodies(-1.0, 0.2, 0.2);
+  s.forces = {{.name = "push", .at = test::body("a"), .size = 100.0, .angle = 0.9}};
+  const StaticEquilibrium found = static_equilibrium(Assembler(s), 100.0);
+  const double angle = 0.4 + 0.5 * pi - pi / 9.0;
+  const double size = 3e6 * 100.0 * std::cos(0.9 - angle) / (2e6 + 2.0 * 3e6);
+  const Vec2 teeth = size * Vec2(std::cos(angle), std::sin(angle));
+  const Vec2 load = 100.0 * Vec2(std::cos(0.9), std::sin(0.9));
+  ASSERT_EQ(found.links.size(), 1u);
+  EXPECT_EQ(found.links[0].name, "teeth");
+  EXPECT_LT((found.links[0].force - teeth).norm(), 1e-12 * size);
+  ASSERT_EQ(found.bearings.size(), 2u);
+  EXPECT_LT((found.bearings[0].force - (load - teeth)).norm(), 1e-12 * size);
+  EXPECT_LT((found.bearings[1].force - teeth).norm(), 1e-12 * size);
 }
 
 TEST(Gears, SpeedsAreThoseOfTheRadii) {
