@@ -37,14 +37,21 @@ void find_largest(const std::vector<double>& speeds, std::vector<BearingResponse
   }
 }
 
+/// Whether a force follows from x and y of both ends: that on a rigid part follows from the
+/// equations of motion, that of teeth from tilts, too, that of a support from its states.
+bool is_of_ends(const CarryingPart& part) {
+  return !part.is_rigid && part.kind != "gear" && part.kind != "support" &&
+         part.kind != "magnetic bearing";
+}
+
 /// The full vector of a response at a speed, where elastic parts find all that they ask for;
-/// nothing if some part is not elastic, or not among the points.
+/// nothing if some part asks for more, or is not among the points.
 class KnownMotion {
  public:
   KnownMotion(const UnbalanceResponse& known, const std::vector<CarryingPart>& parts)
       : known_(known) {
     is_enough_ = std::ranges::all_of(parts, [&](const CarryingPart& part) {
-      return !part.is_rigid && is_known(part.from) && is_known(part.to);
+      return is_of_ends(part) && is_known(part.from) && is_known(part.to);
     });
   }
 
