@@ -2,6 +2,7 @@
 /// Rotors saved by ROSS 2 and 3 (rotor.save: TOML or JSON), as its files have them.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,9 +35,27 @@ struct RossMaterial {
 
 /// A disk, or a gear.
 struct RossDisk {
+  Where where;
   std::string name;
   int node = 0;
   double m = 0.0, Id = 0.0, Ip = 0.0;  ///< [kg], [kg.m^2]
+};
+
+/// The teeth of a gear, which is a disk beside them.
+struct RossGear {
+  std::string name;
+  int node = 0;
+  double teeth = 0.0;                              ///< how many; 0: not told
+  double pitch_radius = 0.0;                       ///< [m]; 0: not told
+  double pressure_angle = 0.0, helix_angle = 0.0;  ///< normal, of the driving gear [rad]
+  double width = 0.0, E = 0.0;                     ///< [m], [Pa]; 0: not told
+};
+
+/// What a file says of the gears of a multi-rotor that mesh.
+struct RossMesh {
+  std::vector<double> nodes;      ///< of both gears; none: not told
+  double stiffness = 0.0;         ///< [N/m]; 0: not told
+  std::optional<double> centers;  ///< direction from the driving to the driven center [rad]
 };
 
 /// A point mass, on a support or on the shaft.
@@ -48,6 +67,18 @@ struct RossPointMass {
 
 constexpr std::array<std::string_view, 12> ross_coefficients{
     "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy", "mxx", "mxy", "myx", "myy"};
+
+/// Magnets of a bearing and their controller, i / u = P + I / s + D s / (1 + s / w_D), of each
+/// axis.
+struct RossMagnets {
+  double current_stiffness = 0.0;     ///< ki [N/A]
+  double negative_stiffness = 0.0;    ///< ks [N/m]
+  double proportional = 0.0;          ///< P [A/m]
+  double integral = 0.0;              ///< I [A/(m.s)]
+  double derivative = 0.0;            ///< D [A.s/m]
+  double derivative_bandwidth = 0.0;  ///< w_D [rad/s]; 0: without end
+  double angle = 0.0;                 ///< of the first axis, from +x to +y [rad]
+};
 
 /// A bearing or seal of any class, by its coefficients.
 struct RossBearing {
@@ -61,7 +92,8 @@ struct RossBearing {
   bool is_seal = false;
   int node = 0, link = -1;  ///< where it is, and what it is fixed to; -1: the ground
   bool has_speed = false, has_whirl = false;
-  std::vector<Row> rows;  ///< one row if the coefficients are constant
+  std::vector<Row> rows;               ///< one row if the coefficients are constant
+  std::optional<RossMagnets> magnets;  ///< that the coefficients come from
 };
 
 /// A coupling: springs between two nodes with a mass at each.
@@ -71,6 +103,8 @@ struct RossCoupling {
   double length = 0.0, outer = 0.0;                    ///< [m]
   std::array<double, 2> m{}, Id{}, Ip{};               ///< at both ends [kg], [kg.m^2]
   std::array<double, 2> k{}, c{}, k_tilt{}, c_tilt{};  ///< along (about) x and y [SI]
+
+  bool has_equal_halves() const { return m[0] == m[1] && Id[0] == Id[1] && Ip[0] == Ip[1]; }
 };
 
 /// How ROSS finds coefficients between the rows of a table.
@@ -86,6 +120,9 @@ struct RossRotor {
   std::vector<RossElement> elements;  ///< by their nodes; of one node the inner ones first
   std::vector<RossCoupling> couplings;
   std::vector<RossDisk> disks;
+  std::vector<RossGear> gears;
+  RossMesh mesh;
+  std::optional<double> speed_ratio;  ///< of the second shaft to the first one, if told
   std::vector<RossPointMass> masses;
   std::vector<RossBearing> bearings;
   double rated_speed = 0.0, minimum_speed = 0.0, maximum_speed = 0.0;  ///< 0: not told [rad/s]

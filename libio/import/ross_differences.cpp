@@ -48,9 +48,16 @@ std::vector<std::string> differences_of(const RossRotor& rotor) {
         "elements with only one of shear, rotary inertia and gyroscopics have the nearest "
         "theory");
   }
+  if (std::any_of(rotor.bearings.begin(), rotor.bearings.end(),
+                  [](const RossBearing& b) { return b.magnets.has_value(); })) {
+    told.emplace_back(
+        "the controllers of magnetic bearings have states of their own, which damped modes see at "
+        "their complex frequency, where ROSS has stiffness and damping at a real one");
+  }
   if (!rotor.couplings.empty()) {
     told.emplace_back(
-        "a coupling is two disks and a link; the shaft between them bears next to nothing");
+        "a coupling lies between two nodes of one shaft; what is between them bears next to "
+        "nothing");
   }
   return told;
 }
