@@ -1,9 +1,11 @@
 #pragma once
-/// The machine of a lateral analysis: its rotor without unbalance, journals, probes and cases of
-/// unbalance. For lateral_report.cpp and lateral_stability.cpp.
+/// The machine of a lateral analysis: its rotor without unbalance, shafts, journals, probes and
+/// cases of unbalance. For lateral_report.cpp and lateral_stability.cpp.
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +14,8 @@
 #include "libdyn/linear/lateral_report.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/analyses/unbalance.hpp"
+#include "libfe/lateral/lateral_rules.hpp"
+#include "libfe/lateral/turning_shaft.hpp"
 
 namespace whirl::inline dyn {
 
@@ -24,27 +28,53 @@ inline void sort_out(std::vector<double>& speeds) {
   speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
 }
 
+/// A shaft that turns and that journals carry: the rules are asked of each for itself.
+struct JournaledShaft {
+  TurningShaft of;
+  std::string name{};               ///< "shaft": the first of several; empty: there is one
+  std::vector<Journal> journals{};  ///< left to right
+
+  /// Largest continuous speed of its own [rad/s].
+  double maximum(const OperatingRange& range) const { return of.order() * range.maximum; }
+};
+
+/// The rotor with the unbalance of a case.
+struct UnbalancedRotor {
+  Assembler assembler;
+  std::size_t shaft = 0;  ///< on which it is, of Lateral::shafts
+  /// The load, where it has another frequency than the speed; nothing: all that has that.
+  std::optional<Excitation> load{};
+
+  const Excitation* load_or_null() const { return load ? &*load : nullptr; }
+};
+
 /// What all parts of the report ask of a model.
 struct Lateral {
   const Model& model;
   LateralOptions options;
   Structure structure;  ///< linear, without unbalance and bow
   Assembler assembler;
-  std::vector<Journal> journals;
+  std::vector<JournaledShaft> shafts;
   std::vector<NamedPoint> probes;
 
   Lateral(const Model& given, const LateralOptions& how)
       : model(given), options(how), structure(bare(given)), assembler(structure) {
     if (structure.shaft.empty()) throw ModelError({}, "shaft", "a lateral analysis needs a shaft");
-    if (!structure.rotors.empty()) {
-      throw ModelError(structure.rotors.front().where, "rotor." + structure.rotors.front().name,
-                       "the rules of a lateral analysis are those of one shaft; see modes, "
-                       "campbell, critical and unbalance");
+    if (const Rotor* own = structure.rotor_of_own_speed()) {
+      throw ModelError(own->where, "rotor." + own->name,
+                       "it has a speed of its own, and the margins, limits and responses of a "
+                       "lateral analysis go by shafts of constant ratios; expected a ratio, or see "
+                       "campbell and unbalance");
     }
-    journals = journals_of(model, assembler, options.range.maximum);
-    if (journals.empty()) {
+    shafts = journaled_shafts();
+    if (shafts.empty()) {
       throw ModelError({}, "bearing",
                        "a lateral analysis needs a bearing or an oil film on the shaft");
+    }
+    if (!std::ranges::any_of(shafts, [&](const JournaledShaft& s) { return is_coupled(s); })) {
+      throw ModelError({}, "bearing",
+                       "the shaft that cross-coupled stiffness is expected on needs a bearing or "
+                       "an oil film");
     }
     probes = at_probes();
     if (probes.empty()) probes = at_journals();
@@ -55,8 +85,52 @@ struct Lateral {
     for (const Unbalance& u : s.unbalances)
       s.stations.push_back(u.at);  // nodes stay where they are
     s.unbalances.clear();
-    s.bow = {};
+    s.straighten();
     return s;
+  }
+
+  /// Those of a machine that has several are named.
+  std::vector<JournaledShaft> journaled_shafts() const {
+    const std::vector<Journal> journals = journals_of(model, assembler, options.range.maximum);
+    const bool has_several = has_several_shafts(assembler.mesh());
+    std::vector<JournaledShaft> all;
+    int number = 0;
+    for (const Structure::Shaft& shaft : structure.shafts()) {
+      JournaledShaft own{.of = {number, shaft.ratio}};
+      if (has_several) own.name = shaft.name.empty() ? "shaft" : shaft.name;
+      std::ranges::copy_if(journals, std::back_inserter(own.journals),
+                           [&](const Journal& j) { return j.shaft == number; });
+      if (shaft.ratio != 0.0 && !own.journals.empty()) all.push_back(std::move(own));
+      ++number;
+    }
+    return all;
+  }
+
+  bool has_several() const { return !shafts.front().name.empty(); }
+
+  /// Whether Q_A, where it is told, acts on a shaft.
+  bool is_coupled(const JournaledShaft& shaft) const {
+    return shaft.name.empty() || shaft.of.number == options.coupled_shaft;
+  }
+
+  /// Name of the shaft that a point is on; empty: there is one, or it is on none that is looked at.
+  std::string shaft_at(const Point& point) const {
+    const JournaledShaft* shaft = found_at(point);
+    return shaft ? shaft->name : "";
+  }
+
+  /// Vibration that is allowed at a probe, by the speed of its own shaft [m].
+  double vibration_limit_at(const Point& point) const {
+    const JournaledShaft* shaft = found_at(point);
+    return vibration_limit(shaft ? shaft->maximum(options.range) : options.range.maximum);
+  }
+
+  const JournaledShaft* found_at(const Point& point) const {
+    if (point.kind != Point::Kind::node) return nullptr;
+    const auto found = std::ranges::find_if(shafts, [&](const JournaledShaft& s) {
+      return s.of.has_node(point.index, assembler.mesh());
+    });
+    return found == shafts.end() ? nullptr : &*found;
   }
 
   /// Stations with a probe of the model across the shaft, each once; vibration is told along the
@@ -76,8 +150,10 @@ struct Lateral {
   std::vector<NamedPoint> at_journals() const {
     std::vector<NamedPoint> all;
     for (const NamedPoint& p : named_points(model, assembler)) {
-      if (std::any_of(journals.begin(), journals.end(),
-                      [&](const Journal& j) { return j.node + 1 == p.node(); })) {
+      const auto is_here = [&](const Journal& j) { return j.node + 1 == p.node(); };
+      if (std::ranges::any_of(shafts, [&](const JournaledShaft& s) {
+            return std::ranges::any_of(s.journals, is_here);
+          })) {
         all.push_back(p);
       }
     }
@@ -105,25 +181,34 @@ struct Lateral {
     return std::to_string(node + 1);
   }
 
-  /// The node nearest to the middle between the outermost journals, from 0.
-  int middle_node() const {
-    const double middle = 0.5 * (journals.front().z + journals.back().z);
-    const std::vector<double>& z = assembler.mesh().z;
-    const auto nearest = std::min_element(z.begin(), z.end(), [&](double a, double b) {
-      return std::abs(a - middle) < std::abs(b - middle);
-    });
-    return static_cast<int>(nearest - z.begin());
+  /// The node of a shaft nearest to the middle between its outermost journals, from 0.
+  int middle_node(const JournaledShaft& shaft) const {
+    const double middle = 0.5 * (shaft.journals.front().z + shaft.journals.back().z);
+    int nearest = shaft.journals.front().node;
+    double least = INFINITY;
+    for (int node = 0; node < assembler.mesh().nodes(); ++node) {
+      if (!shaft.of.has_node(node, assembler.mesh())) continue;
+      const double away = std::abs(assembler.mesh().z[static_cast<std::size_t>(node)] - middle);
+      if (away < least) least = away, nearest = node;
+    }
+    return nearest;
   }
 
   /// The rotor with the unbalance of a case.
-  Assembler unbalanced(const UnbalanceCase& of) const {
+  /// @param shaft  number of its shaft among shafts
+  UnbalancedRotor unbalanced(const UnbalanceCase& of, std::size_t shaft) const {
     Structure s = structure;
     for (const UnbalancePlane& p : of.planes) {
       s.unbalances.push_back({.at = {.kind = Station::Kind::node, .node = p.node + 1},
                               .moment = p.moment,
                               .phase = p.phase});
     }
-    return Assembler(s);
+    UnbalancedRotor rotor{Assembler(s), shaft};
+    if (shafts[shaft].of.order() == 1.0) return rotor;
+    for (const Excitation& e : other_excitations(rotor.assembler)) {
+      if (e.growth == Growth::unbalance) rotor.load = e;
+    }
+    return rotor;
   }
 
   /// Speeds that every response goes through.
@@ -140,11 +225,19 @@ struct Lateral {
 struct Machine {
   std::string variant;
   Lateral lateral;
-  int first_case = 0;                   ///< number of its first case in the report
-  std::vector<Assembler> unbalanced{};  ///< for each of its cases
+  int first_case = 0;                         ///< number of its first case in the report
+  std::vector<UnbalancedRotor> unbalanced{};  ///< for each of its cases
   Campbell campbell{};
   std::vector<std::vector<double>> speeds{};  ///< that the curve of each needs
 };
+
+/// What the cases of unbalance of one shaft come to, of the model and its variants.
+struct ShaftCurves {
+  std::vector<double> speeds{};     ///< that their responses go through [rad/s]
+  std::vector<double> unbounded{};  ///< their undamped resonances [rad/s]
+};
+/// By the number of the shaft.
+using CurvesOfShafts = std::map<int, ShaftCurves>;
 
 /// A check of something that should be at least, or at most, so much.
 inline Verdict verdict_of(double found, double limit, bool is_least) {
@@ -152,7 +245,7 @@ inline Verdict verdict_of(double found, double limit, bool is_least) {
   return (is_least ? found >= limit : found <= limit) ? Verdict::passed : Verdict::failed;
 }
 
-/// Adds what level I and level II find of a machine.
+/// Adds what level I and level II find of the shafts of a machine.
 /// @param is_first  whether it is the model itself
 void add_stability(const Machine& machine, bool is_first, LateralStudy& study);
 

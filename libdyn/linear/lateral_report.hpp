@@ -11,12 +11,12 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/structs/column.hpp"
 #include "libbase/structs/field.hpp"
+#include "libdyn/linear/lateral_parts.hpp"
 #include "libdyn/linear/lateral_unbalance.hpp"
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "libfe/analyses/response_curve.hpp"
-#include "libfe/lateral/coupling_stability.hpp"
 
 namespace whirl::inline dyn {
 
@@ -33,6 +33,7 @@ struct LateralOptions {
   double anticipated = 0.0;      ///< Q_A, cross-coupled stiffness to be expected [N/m]; 0: none
   bool has_anticipated = false;  ///< whether Q_A is told
   std::optional<double> gas_density = {};  ///< average of the gas [kg/m^3]; nothing: not told
+  int coupled_shaft = 0;                   ///< number of the shaft on which Q_A acts, from 0
   int modes = 8;                           ///< of the Campbell diagram
   int criticals = 6;                       ///< critical speeds that are looked for
 };
@@ -40,12 +41,14 @@ struct LateralOptions {
 /// What a bearing or film carries.
 struct LateralJournal {
   std::string name;
-  double mass = 0.0;  ///< [kg]
+  double mass = 0.0;    ///< [kg]
+  std::string shaft{};  ///< that it carries; empty: the machine has one
 
   static constexpr auto columns() {
     return ColumnList{
         column("name", &LateralJournal::name, "", "bearing or oil film"),
-        column("mass", &LateralJournal::mass, "kg", "that it carries at rest at full speed")};
+        column("mass", &LateralJournal::mass, "kg", "that it carries at rest at full speed"),
+        column_of_shaft<LateralJournal>()};
   }
 };
 
@@ -55,6 +58,7 @@ struct LateralPlane {
   std::string station;
   double moment = 0.0;  ///< [kg.m]
   double phase = 0.0;   ///< [rad]
+  std::string shaft{};  ///< on which it is; empty: the machine has one
 
   static constexpr auto columns() {
     using P = LateralPlane;
@@ -63,7 +67,8 @@ struct LateralPlane {
                           .from_one(),
                       column("station", &P::station, "", "where it is"),
                       column("moment", &P::moment, "kg.m", "unbalance"),
-                      column("phase", &P::phase, "rad", "angle to the first one, 0 or pi")};
+                      column("phase", &P::phase, "rad", "angle to the first one, 0 or pi"),
+                      column_of_shaft<P>()};
   }
 };
 
@@ -77,6 +82,8 @@ struct LateralCase {
   int probe = 0;                 ///< number of that probe, from 0
   double vibration_speed = 0.0;  ///< speed of that vibration [rad/s]
   double scaling = 0.0;          ///< that brings the vibration to the limit, 6 at most
+  std::string shaft{};           ///< with the unbalance; empty: the machine has one
+  double order = 1.0;            ///< frequency of the unbalance over the speed of the first shaft
 
   static constexpr auto columns() {
     using C = LateralCase;
@@ -91,7 +98,11 @@ struct LateralCase {
             .within(valid::numbers_of("probes"))
             .from_one(),
         column("vibration_speed", &C::vibration_speed, "rad/s", "where it is largest"),
-        column("scaling", &C::scaling, "", "that brings it to the limit, 6 at most")};
+        column("scaling", &C::scaling, "", "that brings it to the limit, 6 at most"),
+        column_of_shaft<C>(),
+        column("order", &C::order, "", "of its unbalance, over the speed of the first shaft")
+            .within(valid::positive)
+            .maybe()};
   }
 };
 
@@ -113,33 +124,14 @@ struct LateralResponse {
   }
 };
 
-/// Largest force of a case on what carries the rotor, up to the trip speed.
-struct LateralForce {
-  int of_case = 0;   ///< from 0
-  std::string kind;  ///< "bearing", "seal", "link", "oil film"
-  std::string name;
-  double force = 0.0;  ///< largest in a period, without the weight [N]
-  double speed = 0.0;  ///< where it is that large [rad/s]
-
-  static constexpr auto columns() {
-    using F = LateralForce;
-    return ColumnList{
-        column("case", &F::of_case, "", "case of unbalance")
-            .within(valid::numbers_of("cases"))
-            .from_one(),
-        column("kind", &F::kind, "", "bearing, seal, link, oil film or rolling bearing"),
-        column("name", &F::name, "", "its name"),
-        column("force", &F::force, "N", "largest in a period, without the weight"),
-        column("speed", &F::speed, "rad/s", "where it is that large")};
-  }
-};
-
 /// A place where vibration is measured.
 struct LateralProbe {
   std::string station;
+  std::string shaft{};  ///< on which it is; empty: the machine has one, or it is on none
 
   static constexpr auto columns() {
-    return ColumnList{column("probe", &LateralProbe::station, "", "station").axis()};
+    return ColumnList{column("probe", &LateralProbe::station, "", "station").axis(),
+                      column_of_shaft<LateralProbe>()};
   }
 };
 
@@ -165,6 +157,7 @@ struct LateralPeak : ResponsePeak {
   int of_case = 0;  ///< from 0
   SeparationMargin margin;
   PeakSides sides = PeakSides::both;  ///< of a single side, the other one is taken to be as far
+  std::string shaft{};                ///< with the unbalance; empty: the machine has one
 
   double found() const { return margin.actual; }
   double required() const { return margin.required; }
@@ -187,6 +180,7 @@ struct LateralPeak : ResponsePeak {
         column("below", &P::below, "rad/s", "0.707 of the peak, below it"),
         column("above", &P::above, "rad/s", "0.707 of the peak, above it"),
         column("sides", &P::sides, "", "on which 0.707 of the peak is reached").maybe(),
+        column_of_shaft<P>(),
         column("amplification", &P::amplification, "", "factor").only(in_json),
         column("kind", &P::kind, "", "what that makes of it").only(in_json),
         column("margin", &P::found, "", "to the operating speeds").only(in_json),
@@ -201,6 +195,7 @@ struct LateralClearance {
   double left = 0.0;     ///< what is left of the clearance with the rotor at rest [m]
   double largest = 0.0;  ///< major semi-axis there up to the trip speed, scaled [m]
   double speed = 0.0;    ///< speed of the largest one [rad/s]
+  std::string shaft{};   ///< with the unbalance; empty: the machine has one
 
   /// Largest over left; infinite where the rotor at rest touches already.
   double share() const { return left > 0.0 ? largest / left : INFINITY; }
@@ -215,54 +210,8 @@ struct LateralClearance {
                       column("left", &C::left, "m", "running clearance, beside the rotor at rest"),
                       column("largest", &C::largest, "m", "scaled response, from the middle"),
                       column("speed", &C::speed, "rad/s", "where it is that large"),
-                      column("share", &C::share, "", "of the running clearance").only(in_json)};
-  }
-};
-
-/// The logarithmic decrement with the parts that may drive a whirl put in one by one.
-struct LevelTwoStep {
-  std::string variant{};       ///< of the model; empty: the model itself
-  std::string parts;           ///< "without seals", "with seal eye", ..., each with those before it
-  double log_decrement = nan;  ///< of the least damped mode
-  double frequency = nan;      ///< of that mode [rad/s]
-
-  static constexpr auto columns() {
-    using S = LevelTwoStep;
-    return ColumnList{
-        column("parts", &S::parts, "", "what is in the model, beside what was before"),
-        column("log_decrement", &S::log_decrement, "", "of the least damped mode"),
-        column("frequency", &S::frequency, "rad/s", "of that mode"),
-        column("variant", &S::variant, "", "variant of the model; empty: the model itself")
-            .maybe()};
-  }
-};
-
-/// Level I of the model or of a variant.
-struct LevelOneState {
-  std::string variant{};       ///< of the model; empty: the model itself
-  double log_decrement = nan;  ///< with Q_A, or without any cross-coupling
-  double limit = nan;          ///< Q_0 [N/m]; 0: bears no Q; NaN: stable with any Q
-
-  static constexpr auto columns() {
-    using S = LevelOneState;
-    return ColumnList{
-        column("log_decrement", &S::log_decrement, "", "with the cross-coupled stiffness expected"),
-        column("limit", &S::limit, "N/m", "cross-coupled stiffness that the rotor bears"),
-        column("variant", &S::variant, "", "variant of the model; empty: the model itself")
-            .maybe()};
-  }
-};
-
-/// The least damped mode of the model or of a variant under a cross-coupled stiffness.
-struct CoupledState : CoupledMode {
-  std::string variant{};  ///< of the model; empty: the model itself
-
-  static constexpr auto columns() {
-    using S = CoupledState;
-    return joined(CoupledMode::columns(),
-                  ColumnList{column("variant", &S::variant, "",
-                                    "variant of the model; empty: the model itself")
-                                 .maybe()});
+                      column("share", &C::share, "", "of the running clearance").only(in_json),
+                      column_of_shaft<C>()};
   }
 };
 
@@ -306,6 +255,7 @@ struct LateralCheck {
   Verdict verdict = Verdict::unknown;
   std::string missing{};  ///< what was not given for the check; empty: nothing
   std::string variant{};  ///< of the model; empty: the model itself
+  std::string shaft{};    ///< that it is about; empty: the machine has one, or it is about all
 
   static constexpr auto columns() {
     using C = LateralCheck;
@@ -318,8 +268,8 @@ struct LateralCheck {
         column("limit", &C::limit, "", "what is asked for, in SI"),
         column("verdict", &C::verdict, "", "passed, failed or unknown"),
         column("missing", &C::missing, "", "what was not given for it").maybe(),
-        column("variant", &C::variant, "", "variant of the model; empty: the model itself")
-            .maybe()};
+        column("variant", &C::variant, "", "variant of the model; empty: the model itself").maybe(),
+        column_of_shaft<C>()};
   }
 };
 
@@ -393,23 +343,6 @@ struct LateralReport {
         rows(&R::coupled_modes, "coupled_modes").prefixed("coupled_").maybe(),
         rows(&R::checks, "checks").prefixed("check_").maybe(),
         column("unbounded", &R::unbounded, "rad/s", "undamped resonances").only(in_json)};
-  }
-};
-
-/// Forces on supports, and stability seal by seal; in group /lateral.
-struct LateralParts {
-  std::vector<LateralForce> forces;
-  std::vector<LevelTwoStep> level_two;
-  std::vector<LevelOneState> level_one{};  ///< the model first; empty: there are no variants
-  std::vector<CoupledState> coupled{};     ///< of all states; empty likewise
-
-  static constexpr std::string_view group = "/lateral";
-  static constexpr auto columns() {
-    using P = LateralParts;
-    return ColumnList{rows(&P::forces, "forces").prefixed("force_").maybe(),
-                      rows(&P::level_two, "level_two").prefixed("level_two_").maybe(),
-                      rows(&P::level_one, "level_one").prefixed("level_one_").maybe(),
-                      rows(&P::coupled, "coupled_states").prefixed("state_").maybe()};
   }
 };
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <ranges>
+#include <utility>
 
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/resting_rotor.hpp"
@@ -18,8 +19,14 @@ constexpr double standard_gravity = 9.80665;  // [m/s^2]
 
 /// Whether unbalances are at the same places.
 bool is_like(const std::vector<UnbalancePlane>& a, const std::vector<UnbalancePlane>& b,
-             const Mesh& mesh) {
-  const double near = 0.1 * (mesh.z[mesh.left_to_right.back()] - mesh.z[mesh.left_to_right[0]]);
+             const Mesh& mesh, const TurningShaft& of) {
+  double left = INFINITY, right = -INFINITY;
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    if (!of.has_node(node, mesh)) continue;
+    const double z = mesh.z[static_cast<std::size_t>(node)];
+    left = std::min(left, z), right = std::max(right, z);
+  }
+  const double near = 0.1 * (right - left);
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [&](const UnbalancePlane& p, const UnbalancePlane& q) {
                       return std::abs(mesh.z[p.node] - mesh.z[q.node]) <= near;
@@ -28,9 +35,9 @@ bool is_like(const std::vector<UnbalancePlane>& a, const std::vector<UnbalancePl
 
 /// The case of an overhung end, with the mode that moves this end most.
 UnbalanceCase case_of(const OverhungEnd& end, const std::vector<Critical>& excited,
-                      const Assembler& assembler, double maximum) {
+                      const Assembler& assembler, double maximum, const TurningShaft& of) {
   const auto share = [&](const Critical& c) {
-    return forward_share(assembler.mesh(), assembler.at(c.speed).dofs, c.shape, end.node);
+    return forward_share(assembler.mesh(), assembler.at(c.speed).dofs, c.shape, end.node, of);
   };
   const Critical* mode = &excited.front();
   double largest = share(*mode);
@@ -52,23 +59,30 @@ std::vector<Journal> journals_of(const Model& given, const Assembler& assembler,
   if (model.structure.gravity == 0.0) model.structure.gravity = standard_gravity;
   const Assembler weighed(model.structure);
   const std::vector<BearingLoad> loads = resting_rotor(model, weighed, Omega).journal_loads(model);
-  std::vector<Point> points;
-  for (const Connection& b : model.structure.bearings) points.push_back(assembler.point(b.from));
+  std::vector<std::pair<Point, Point>> ends;
+  const auto add = [&](const Station& from, const Station& to) {
+    ends.emplace_back(assembler.point(from), assembler.point(to));
+  };
+  for (const Connection& b : model.structure.bearings) add(b.from, b.to);
   for (const OilFilm& film : model.films) {
-    if (film.is_linearized) points.push_back(assembler.point(film.at));
+    if (film.is_linearized) add(film.at, film.against);
   }
-  for (const Contact& bearing : rolling_bearings(model.contacts)) {
-    points.push_back(assembler.point(bearing.at));
-  }
+  for (const Contact& bearing : rolling_bearings(model.contacts)) add(bearing.at, bearing.against);
   std::vector<Journal> journals;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].kind != Point::Kind::node) continue;
-    const int node = points[i].index;
-    journals.push_back({loads[i].name, node, assembler.mesh().z[node],
-                        loads[i].force.norm() / std::abs(model.structure.gravity)});
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const auto& [from, to] = ends[i];
+    const bool is_between = from.kind == to.kind;  // two shafts: the load points to the lower one
+    const bool carries_other = is_between && loads[i].force(1) * model.structure.gravity > 0.0;
+    const Point& point = carries_other ? to : from;
+    if (from.kind != Point::Kind::node || point.kind != Point::Kind::node) continue;
+    const auto node = static_cast<std::size_t>(point.index);
+    journals.push_back({loads[i].name, point.index, assembler.mesh().z[node],
+                        loads[i].force.norm() / std::abs(model.structure.gravity),
+                        assembler.mesh().shaft_of[node]});
   }
-  std::stable_sort(journals.begin(), journals.end(),
-                   [](const Journal& a, const Journal& b) { return a.z < b.z; });
+  std::stable_sort(journals.begin(), journals.end(), [](const Journal& a, const Journal& b) {
+    return std::pair(a.shaft, a.z) < std::pair(b.shaft, b.z);
+  });
   return journals;
 }
 
@@ -94,7 +108,7 @@ std::vector<UnbalancePlane> unbalance_planes(const std::vector<Antinode>& antino
 }
 
 std::vector<OverhungEnd> overhung_ends(const Structure& structure, const Mesh& mesh,
-                                       const std::vector<Journal>& journals) {
+                                       const std::vector<Journal>& journals, int shaft) {
   std::vector<OverhungEnd> ends;
   if (journals.empty()) return ends;
   for (const bool is_right : {false, true}) {
@@ -103,10 +117,12 @@ std::vector<OverhungEnd> overhung_ends(const Structure& structure, const Mesh& m
     std::optional<int> outermost;
     for (const Disk& disk : structure.disks) {
       const Point point = resolve(disk.at, structure, mesh);
+      if (shaft_of(point, structure, mesh) != shaft) continue;
       if (!(disk.m > 0.0) || !(reach(point.index) > 0.0)) continue;
       if (!outermost || reach(point.index) > reach(*outermost)) outermost = point.index;
     }
-    if (outermost) ends.push_back({*outermost, mass_beyond(structure, mesh, journal, is_right)});
+    if (outermost)
+      ends.push_back({*outermost, mass_beyond(structure, mesh, journal, is_right, shaft)});
   }
   return ends;
 }
@@ -114,26 +130,29 @@ std::vector<OverhungEnd> overhung_ends(const Structure& structure, const Mesh& m
 std::vector<UnbalanceCase> unbalance_cases(const Assembler& assembler,
                                            const std::vector<Critical>& criticals,
                                            const std::vector<Journal>& journals, double maximum,
-                                           double limit) {
+                                           double limit, const TurningShaft& of) {
+  const double own_maximum = of.order() * maximum;
   std::vector<UnbalanceCase> cases;
   std::vector<Critical> excited;
   for (const Critical& critical : criticals) {
     if (critical.speed > limit && !cases.empty()) break;
     excited.push_back(critical);
     const DofMap dofs = assembler.at(critical.speed).dofs;
-    std::vector<UnbalancePlane> planes = unbalance_planes(
-        antinodes(assembler.mesh(), dofs, critical.shape), journals, assembler.mesh(), maximum);
+    std::vector<UnbalancePlane> planes =
+        unbalance_planes(antinodes(assembler.mesh(), dofs, critical.shape, of), journals,
+                         assembler.mesh(), own_maximum);
     const bool is_known = std::any_of(cases.begin(), cases.end(), [&](const UnbalanceCase& c) {
-      return is_like(c.planes, planes, assembler.mesh());
+      return is_like(c.planes, planes, assembler.mesh(), of);
     });
     if (planes.empty() || is_known) continue;
     cases.push_back({critical, UnbalancePlaces::antinodes, std::move(planes)});
   }
   if (cases.empty()) return cases;
-  for (const OverhungEnd& end : overhung_ends(assembler.structure(), assembler.mesh(), journals)) {
-    UnbalanceCase own = case_of(end, excited, assembler, maximum);
+  for (const OverhungEnd& end :
+       overhung_ends(assembler.structure(), assembler.mesh(), journals, of.number)) {
+    UnbalanceCase own = case_of(end, excited, assembler, own_maximum, of);
     const bool is_known = std::any_of(cases.begin(), cases.end(), [&](const UnbalanceCase& c) {
-      return is_like(c.planes, own.planes, assembler.mesh()) &&
+      return is_like(c.planes, own.planes, assembler.mesh(), of) &&
              c.planes.front().moment >= own.planes.front().moment;
     });
     if (!is_known) cases.push_back(std::move(own));

@@ -9,6 +9,7 @@
 #include "libfe/analyses/critical.hpp"
 #include "libfe/lateral/antinodes.hpp"
 #include "libfe/lateral/lateral_rules.hpp"
+#include "libfe/lateral/turning_shaft.hpp"
 
 namespace whirl::inline dyn {
 
@@ -20,10 +21,12 @@ struct Journal {
   int node = 0;       ///< from 0
   double z = 0.0;     ///< [m]
   double mass = 0.0;  ///< of its static load [kg]
+  int shaft = 0;      ///< number of the shaft that it carries, from 0
 };
 
-/// Bearings and oil films on the shaft, left to right, with the mass that each of them carries at a
-/// speed [rad/s]. In a model without gravity the gravity of the earth acts.
+/// Bearings and oil films on the shafts, shaft by shaft and left to right, with the mass that each
+/// of them carries at a speed [rad/s]. One between two shafts is a journal of that which it
+/// carries. In a model without gravity the gravity of the earth acts.
 /// @throws ModelError      as static_equilibrium
 /// @throws NumericalError  as FilmEquilibrium::at
 std::vector<Journal> journals_of(const Model& model, const Assembler& assembler, double Omega);
@@ -49,10 +52,11 @@ struct OverhungEnd {
   double mass = 0.0;  ///< of shaft and disks beyond the journal [kg]
 };
 
-/// Ends of the shaft with a disk beyond the outermost journal, left to right.
-/// @param journals  left to right
+/// Ends of a shaft with a disk beyond the outermost journal, left to right.
+/// @param journals  of this shaft, left to right
+/// @param shaft     its number, from 0
 std::vector<OverhungEnd> overhung_ends(const Structure& structure, const Mesh& mesh,
-                                       const std::vector<Journal>& journals);
+                                       const std::vector<Journal>& journals, int shaft = 0);
 
 /// Unbalance that excites a mode.
 struct UnbalanceCase {
@@ -78,9 +82,15 @@ std::vector<UnbalancePlane> unbalance_planes(const std::vector<Antinode>& antino
 /// along x and once along y: with as many antinodes, each within a tenth of the shaft. Behind them
 /// those of overhung ends, each with twice the residual unbalance that is allowed for the mass that
 /// hangs over; one that a case has within a tenth of the shaft, alone and not smaller, is left out.
+///
+/// @param criticals       by the order of the shaft
+/// @param journals        of the shaft, left to right
+/// @param maximum, limit  speeds of the first shaft [rad/s]
+/// @param of              whose unbalance it is, by its own maximum speed; modes count that move it
+///                        at least half as far as any other
 std::vector<UnbalanceCase> unbalance_cases(const Assembler& assembler,
                                            const std::vector<Critical>& criticals,
                                            const std::vector<Journal>& journals, double maximum,
-                                           double limit);
+                                           double limit, const TurningShaft& of = {});
 
 }  // namespace whirl::inline dyn

@@ -136,8 +136,9 @@ std::vector<RunningClearance> largest_distances(const Model& model, const Assemb
 }
 
 std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& assembler,
-                                         const std::vector<double>& speeds) {
-  UnbalanceSolver solver(assembler);
+                                         const std::vector<double>& speeds,
+                                         const Excitation* load) {
+  UnbalanceSolver solver = load ? UnbalanceSolver(assembler, *load) : UnbalanceSolver(assembler);
   const DofMap dofs = solver.dofs();
   const std::vector<Gap> gaps = gaps_of(model, assembler);
   std::vector<ClearanceUse> uses;

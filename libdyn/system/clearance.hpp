@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libbase/structs/column.hpp"
-#include "libfe/assembly/assemble.hpp"
+#include "libfe/assembly/excitations.hpp"
 
 namespace whirl::inline dyn {
 
@@ -75,7 +75,10 @@ std::vector<RunningClearance> largest_distances(const Model& model, const Assemb
 /// of the speed, or the first or last of the speeds.
 ///
 /// @param speeds  ascending, near enough to each other [rad/s]: those of a ResponseCurve
+/// @param load    of any frequency, in place of all that has the frequency of the speed; null:
+/// these
 std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& assembler,
-                                         const std::vector<double>& speeds);
+                                         const std::vector<double>& speeds,
+                                         const Excitation* load = nullptr);
 
 }  // namespace whirl::inline dyn

@@ -34,7 +34,10 @@ class CurveBuilder {
  public:
   CurveBuilder(const Assembler& assembler, const std::vector<Point>& points,
                const ResponseCurveOptions& options)
-      : solver_(assembler), points_(points), options_(options) {}
+      : solver_(options.load ? UnbalanceSolver(assembler, *options.load)
+                             : UnbalanceSolver(assembler)),
+        points_(points),
+        options_(options) {}
 
   /// A sample at a speed; false where the response is unbounded.
   bool add(double Omega) {
@@ -295,7 +298,9 @@ ResponseCurve response_curve(const Assembler& assembler, const std::vector<doubl
     }
     try {
       const std::vector<Resonance> resonances =
-          options.resonances ? *options.resonances : resonances_between(assembler, first, last);
+          options.resonances ? *options.resonances
+                             : resonances_between(assembler, first, last,
+                                                  options.load ? options.load->order : 1.0);
       for (const Resonance& r : resonances) {
         if (r.half_width < finest * r.speed) {
           builder.expect_unbounded(r.speed);

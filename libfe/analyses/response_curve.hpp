@@ -27,6 +27,8 @@ struct ResponseCurveOptions {
   /// Those between the first and the last speed, as another load of this rotor told them; nothing:
   /// they are looked for.
   std::optional<std::vector<Resonance>> resonances{};
+  /// Of an order of the speed, in place of all that has the frequency of the speed; nothing: these.
+  std::optional<Excitation> load{};
 };
 
 /// Response over a range of speeds.

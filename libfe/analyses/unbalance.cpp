@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
@@ -32,7 +33,7 @@ void put(const CVec& full, const DofMap& dofs, Eigen::Index speed, UnbalanceResp
 
 struct UnbalanceSolver::State {
   const Assembler& assembler;
-  /// Of order 1, those of one growth together, in the coordinates of the system.
+  /// Of one frequency, those of one growth together, in the coordinates of the system.
   std::vector<Excitation> loads;
   std::optional<DynamicStiffness> stiffness{};  ///< of the last speed, if it depends on that
 };
@@ -55,6 +56,12 @@ UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
   state_ = std::make_unique<State>(State{assembler, std::move(loads)});
 }
 
+UnbalanceSolver::UnbalanceSolver(const Assembler& assembler, const Excitation& load) {
+  Excitation reduced = load;
+  reduced.amplitude = assembler.dofs().T.transpose() * load.amplitude;
+  state_ = std::make_unique<State>(State{assembler, {std::move(reduced)}});
+}
+
 UnbalanceSolver::~UnbalanceSolver() = default;
 
 const DofMap& UnbalanceSolver::dofs() const {
@@ -64,14 +71,15 @@ const DofMap& UnbalanceSolver::dofs() const {
 std::optional<CVec> UnbalanceSolver::at(double Omega) {
   State& s = *state_;
   if (!acts_at(s.loads, Omega)) return CVec(CVec::Zero(dofs().full_size));
-  if (!s.stiffness || s.assembler.tables_depend_on_speed()) {
-    s.stiffness.emplace(s.assembler.uncondensed(Omega));
+  const double w = s.loads[0].frequency_at(Omega);
+  if (!s.stiffness || s.assembler.tables_depend_on_speed() || s.assembler.depends_on_whirl()) {
+    s.stiffness.emplace(s.assembler.uncondensed(Omega, w));
   }
   CVec force = s.loads[0].growth_at(Omega) * s.loads[0].amplitude;
   for (std::size_t i = 1; i < s.loads.size(); ++i) {
     force += s.loads[i].growth_at(Omega) * s.loads[i].amplitude;
   }
-  const auto q = s.stiffness->solve(Omega, Omega, force);
+  const auto q = s.stiffness->solve(w, Omega, force);
   if (!q) return {};
   return CVec(dofs().T * *q);
 }
@@ -126,9 +134,10 @@ UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vect
     const double Omega = speeds[static_cast<std::size_t>(s)];
     const auto full = solver.at(Omega);
     if (!full) {
-      throw NumericalError(fmt::format(
-          "the rotor has an undamped resonance at {:g} rad/s: the unbalance response is unbounded",
-          Omega));
+      throw NumericalError(
+          fmt::format("the rotor has an undamped resonance at {:g} rad/s: the "
+                      "unbalance response is unbounded",
+                      Omega));
     }
     put(*full, assembler.dofs(), s, response);
   }

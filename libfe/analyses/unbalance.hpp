@@ -30,6 +30,9 @@ struct UnbalanceResponse {
 class UnbalanceSolver {
  public:
   explicit UnbalanceSolver(const Assembler& assembler);
+  /// For one load of any frequency in place of these, u(t) = Re(value e^(i w t)). Bearings take the
+  /// coefficients of that frequency.
+  UnbalanceSolver(const Assembler& assembler, const Excitation& load);
   ~UnbalanceSolver();
 
   /// Complex amplitudes of the full vector at a speed [rad/s], see DofMap [m, rad]; nothing where

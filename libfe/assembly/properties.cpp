@@ -20,31 +20,35 @@ struct Slice {
 };
 
 /// Slices whose sums are exact integrals over what lies between two positions.
+/// @param visit  takes a slice and the number of its shaft
 template <class Visit>
 void visit_slices(const Structure& structure, const Mesh& mesh, double from, double to,
                   const Visit& visit) {
   const Quadrature q = Quadrature::gauss(3);  // of polynomials of the fourth degree
-  const auto visit_part = [&](const auto& part, double start, double whole) {
+  const auto visit_part = [&](const auto& part, double start, double whole, int shaft) {
     const double first = std::clamp((from - start) / whole, 0.0, 1.0);
     const double share = std::clamp((to - start) / whole, 0.0, 1.0) - first;
     if (!(share > 0.0)) return;
     for (int i = 0; i < 3; ++i) {
       const double x = first + share * q.x(i);
       visit(Slice{between(part.left, part.right, x), part.material.rho, start + x * whole,
-                  q.w(i) * share * whole});
+                  q.w(i) * share * whole},
+            shaft);
     }
   };
+  int number = 0;
   for (const Structure::Shaft& shaft : structure.shafts()) {
     double start = shaft.start;
     for (const Segment& segment : shaft.segments) {
-      visit_part(segment, start, segment.length);
+      visit_part(segment, start, segment.length, number);
       start += segment.length;
     }
+    ++number;
   }
   for (const Layer& layer : structure.layers) {
     if (layer.carries == Carries::stiffness) continue;
     const LayerSpan span = span_of(layer, structure, mesh);
-    visit_part(layer, span.from, span.to - span.from);
+    visit_part(layer, span.from, span.to - span.from, span.shaft);
   }
 }
 
@@ -53,7 +57,7 @@ void visit_slices(const Structure& structure, const Mesh& mesh, double from, dou
 RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   RotorProperties p;
   double on_shaft = 0.0, moment = 0.0, second = 0.0;
-  visit_slices(structure, mesh, -INFINITY, INFINITY, [&](const Slice& s) {
+  visit_slices(structure, mesh, -INFINITY, INFINITY, [&](const Slice& s, int) {
     on_shaft += s.mass();
     moment += s.mass() * s.z;
     second += s.mass() * s.z * s.z;
@@ -79,12 +83,15 @@ RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   return p;
 }
 
-double mass_beyond(const Structure& structure, const Mesh& mesh, double z, bool to_the_right) {
+double mass_beyond(const Structure& structure, const Mesh& mesh, double z, bool to_the_right,
+                   int shaft) {
   double mass = 0.0;
   visit_slices(structure, mesh, to_the_right ? z : -INFINITY, to_the_right ? INFINITY : z,
-               [&](const Slice& s) { mass += s.mass(); });
+               [&](const Slice& s, int of) { mass += of == shaft ? s.mass() : 0.0; });
   for (const Disk& disk : structure.disks) {
-    const double at = mesh.position_of(resolve(disk.at, structure, mesh)).value();
+    const Point point = resolve(disk.at, structure, mesh);
+    if (shaft_of(point, structure, mesh) != shaft) continue;
+    const double at = mesh.position_of(point).value();
     if (to_the_right ? at > z : at < z) mass += disk.m;
   }
   return mass;

@@ -16,8 +16,10 @@ struct RotorProperties {
 /// Integrates along the shaft; exact for cylinders and cones.
 RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh);
 
-/// Mass of shaft and disks that lies beyond a position, to its right or to its left [kg]. A disk at
-/// the position does not count.
-double mass_beyond(const Structure& structure, const Mesh& mesh, double z, bool to_the_right);
+/// Mass of a shaft and its disks that lies beyond a position, to its right or to its left [kg]. A
+/// disk at the position does not count.
+/// @param shaft  its number, from 0
+double mass_beyond(const Structure& structure, const Mesh& mesh, double z, bool to_the_right,
+                   int shaft = 0);
 
 }  // namespace whirl::inline fe

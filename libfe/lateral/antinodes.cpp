@@ -13,10 +13,11 @@ struct ForwardShape {
   Complex largest = 0.0;
   double backward = 0.0;  ///< the largest deflection of the other part
 
-  ForwardShape(const Mesh& mesh, const DofMap& dofs, const CVec& shape) {
+  ForwardShape(const Mesh& mesh, const DofMap& dofs, const CVec& shape, const TurningShaft& of) {
     const CVec full = dofs.T * shape;
+    const Complex ahead(0.0, of.turns_against() ? -1.0 : 1.0);
     for (const int node : mesh.left_to_right) {
-      const Complex x = full(4 * node + X), iy = Complex(0.0, 1.0) * full(4 * node + Y);
+      const Complex x = full(4 * node + X), iy = ahead * full(4 * node + Y);
       deflection.push_back(x + iy);
       if (std::abs(x + iy) > std::abs(largest)) largest = x + iy;
       backward = std::max(backward, std::abs(x - iy));
@@ -26,10 +27,11 @@ struct ForwardShape {
 
 }  // namespace
 
-std::vector<Antinode> antinodes(const Mesh& mesh, const DofMap& dofs, const CVec& shape) {
+std::vector<Antinode> antinodes(const Mesh& mesh, const DofMap& dofs, const CVec& shape,
+                                const TurningShaft& of) {
   constexpr double least = 0.5;
   constexpr double hardly = 1e-3;  // of the backward part, below which the shape is that alone
-  const ForwardShape forward(mesh, dofs, shape);
+  const ForwardShape forward(mesh, dofs, shape, of);
   std::vector<Antinode> found;
   if (!(std::abs(forward.largest) > hardly * forward.backward)) return found;
   std::vector<double> deflection;
@@ -37,7 +39,7 @@ std::vector<Antinode> antinodes(const Mesh& mesh, const DofMap& dofs, const CVec
   std::size_t first = 0;
   for (const std::vector<int>& line : mesh.lines()) {
     const std::size_t last = first + line.size() - 1;
-    for (std::size_t i = first; i <= last; ++i) {
+    for (std::size_t i = first; i <= last && of.has_node(line.front(), mesh); ++i) {
       const double here = std::abs(deflection[i]);
       if (here < least) continue;
       if (i > first && std::abs(deflection[i - 1]) > here) continue;
@@ -49,8 +51,9 @@ std::vector<Antinode> antinodes(const Mesh& mesh, const DofMap& dofs, const CVec
   return found;
 }
 
-double forward_share(const Mesh& mesh, const DofMap& dofs, const CVec& shape, int node) {
-  const ForwardShape forward(mesh, dofs, shape);
+double forward_share(const Mesh& mesh, const DofMap& dofs, const CVec& shape, int node,
+                     const TurningShaft& of) {
+  const ForwardShape forward(mesh, dofs, shape, of);
   const auto place = std::find(mesh.left_to_right.begin(), mesh.left_to_right.end(), node);
   const auto i = static_cast<std::size_t>(place - mesh.left_to_right.begin());
   const double largest = std::max(std::abs(forward.largest), forward.backward);

@@ -41,23 +41,39 @@ struct LeastDamped {
 /// The rotor with some cross-coupled stiffness at a station.
 class CoupledRotor {
  public:
-  CoupledRotor(const Structure& structure, double Omega, const Station& at, int count)
-      : structure_(structure), at_(at), Omega_(Omega), count_(count), assembler_(structure) {
+  CoupledRotor(const Structure& structure, double Omega, const Station& at, int count,
+               const TurningShaft& shaft)
+      : structure_(structure),
+        at_(at),
+        Omega_(Omega),
+        count_(count),
+        shaft_(shaft),
+        assembler_(structure),
+        is_one_of_several_(has_several_shafts(assembler_.mesh())) {
     const System system = assembler_.at(Omega);
     has_all_ = system.size() < dense_below || count >= system.size();
     if (has_all_) count_ = std::max(count, system.size());
     modes_ = modes_of(assembler_);
-    const auto slowest = std::find_if(modes_.oscillatory.begin(), modes_.oscillatory.end(),
-                                      [](const Mode& m) { return m.whirl != Whirl::backward; });
-    const bool has_slowest = slowest != modes_.oscillatory.end();
-    limit_ = std::max(has_slowest ? drift * slowest->frequency() : 0.0, Omega) * (1.0 + level);
+    own_ = of_shaft(modes_, assembler_);
+    const Whirl against = shaft_.turns_against() ? Whirl::forward : Whirl::backward;
+    const auto slowest = std::find_if(own_.oscillatory.begin(), own_.oscillatory.end(),
+                                      [&](const Mode& m) { return m.whirl != against; });
+    const bool has_slowest = slowest != own_.oscillatory.end();
+    limit_ = std::max(has_slowest ? drift * slowest->frequency() : 0.0, spin()) * (1.0 + level);
   }
 
+  /// All modes at Q = 0.
   const Modes& modes() const { return modes_; }
+  /// Those that move the shaft most, and all that do not oscillate.
+  const Modes& own_modes() const { return own_; }
   bool has_all_modes() const { return has_all_; }
 
   /// The least damped mode at Q of those that level I is about, see coupling_stability.
-  LeastDamped at(double Q) const { return least_of(Q == 0.0 ? modes_ : modes_of(coupled(Q)), Q); }
+  LeastDamped at(double Q) const {
+    if (Q == 0.0) return least_of(own_, Q);
+    const Assembler with_coupling = coupled(Q);
+    return least_of(of_shaft(modes_of(with_coupling), with_coupling), Q);
+  }
 
   /// Whether it has a place to come back to.
   bool is_held() const { return is_held_at_rest(assembler_.uncondensed(Omega_, 0.0)); }
@@ -79,6 +95,7 @@ class CoupledRotor {
       const CVec full = dofs.T * stiffness_->solve(dofs.T.transpose() * force);
       H(0, j) = full(own[0]), H(1, j) = full(own[1]);
     }
+    if (shaft_.turns_against()) H.transposeInPlace();  // Q has the other sign
     return H;
   }
 
@@ -103,11 +120,25 @@ class CoupledRotor {
     return least;
   }
 
+  /// Speed of the shaft [rad/s].
+  double spin() const { return shaft_.order() * Omega_; }
+
+  Modes of_shaft(Modes modes, const Assembler& assembler) const {
+    if (!is_one_of_several_) return modes;
+    const DofMap dofs = assembler.at(Omega_).dofs;
+    const auto is_of_another = [&](const Mode& m) {
+      return shaft_moved_most(assembler.mesh(), dofs, m.shape) != shaft_.number;
+    };
+    std::erase_if(modes.oscillatory, is_of_another);
+    std::erase_if(modes.rigid_body, is_of_another);
+    return modes;
+  }
+
   /// All of a small rotor; of a large one as many of the lowest as reach beyond its speed.
   Modes modes_of(const Assembler& assembler) const {
     Modes modes = complex_modes(assembler, Omega_, count_);
     for (int count = 2 * count_; static_cast<int>(modes.oscillatory.size()) * 2 == count &&
-                                 modes.oscillatory.back().frequency() < Omega_;
+                                 modes.oscillatory.back().frequency() < spin();
          count *= 2) {
       modes = complex_modes(assembler, Omega_, count);
     }
@@ -118,6 +149,7 @@ class CoupledRotor {
     Structure s = structure_;
     BearingCoefficients coupling;
     coupling.K << 0.0, Q, -Q, 0.0;
+    if (shaft_.turns_against()) coupling.K *= -1.0;
     // a force of the gas, not a spring: damping in proportion to stiffness has no part in it
     s.linearized.push_back(
         {"cross-coupling", at_, {}, [coupling](double, double) { return coupling; }});
@@ -128,9 +160,11 @@ class CoupledRotor {
   Station at_;
   double Omega_;
   int count_;
+  TurningShaft shaft_;
   Assembler assembler_;
-  Modes modes_;         ///< at Q = 0
-  double limit_ = 0.0;  ///< frequency up to which every mode counts [rad/s]
+  bool is_one_of_several_;
+  Modes modes_, own_{};  ///< at Q = 0
+  double limit_ = 0.0;   ///< frequency up to which every mode counts [rad/s]
   bool has_all_ = false;
   std::optional<DynamicStiffness> stiffness_{};
 };
@@ -295,16 +329,16 @@ double last_coupling(const CouplingStability& found, double anticipated, double 
 }  // namespace
 
 CoupledMode least_damped_mode(const Structure& structure, double Omega, const Station& at,
-                              int count) {
-  return CoupledRotor(structure, Omega, at, count).at(0.0).mode;
+                              int count, const TurningShaft& shaft) {
+  return CoupledRotor(structure, Omega, at, count, shaft).at(0.0).mode;
 }
 
 CouplingStability coupling_stability(const Structure& structure, double Omega, const Station& at,
                                      const CouplingOptions& options) {
   CouplingStability found;
-  CoupledRotor rotor(structure, Omega, at, options.count);
-  const std::vector<Mode>& oscillatory = rotor.modes().oscillatory;
-  const std::vector<Complex>& overdamped = rotor.modes().overdamped;
+  CoupledRotor rotor(structure, Omega, at, options.count, options.shaft);
+  const std::vector<Mode>& oscillatory = rotor.own_modes().oscillatory;
+  const std::vector<Complex>& overdamped = rotor.own_modes().overdamped;
   if (oscillatory.empty() && overdamped.empty()) return found;
   const double mass = rotor_properties(structure, make_mesh(structure)).mass;
   const double size =

@@ -6,6 +6,7 @@
 
 #include "libbase/structs/column.hpp"
 #include "libfe/analyses/modes.hpp"
+#include "libfe/lateral/turning_shaft.hpp"
 
 namespace whirl::inline fe {
 
@@ -34,12 +35,13 @@ struct CouplingOptions {
   double anticipated = 0.0;  ///< Q_A [N/m]
   int count = 8;             ///< modes looked at, at least; of small rotors all are
   int steps = 16;            ///< of the curve, from 0 to a quarter beyond Q_0
+  TurningShaft shaft{};      ///< on which the station is
 };
 
 /// The least damped mode without any cross-coupled stiffness beside that of the structure, as
 /// coupling_stability chooses it.
 CoupledMode least_damped_mode(const Structure& structure, double Omega, const Station& at,
-                              int count);
+                              int count, const TurningShaft& shaft = {});
 
 /// Logarithmic decrement over a cross-coupled stiffness at a station, at a speed.
 ///
@@ -60,7 +62,11 @@ CoupledMode least_damped_mode(const Structure& structure, double Omega, const St
 /// those at Q = 0: Q acts on the whirl about the equilibrium and does not move the equilibrium
 /// itself.
 ///
-/// @param Omega  speed [rad/s]
+/// Of several shafts, Q drives the whirl in the sense in which the shaft of the station turns, the
+/// speed of the rotor is that of this shaft, and modes count that move this shaft more than the
+/// others; all of them turn.
+///
+/// @param Omega  speed of the first shaft [rad/s]
 /// @source [API617], stability analysis of level I
 CouplingStability coupling_stability(const Structure& structure, double Omega, const Station& at,
                                      const CouplingOptions& options);

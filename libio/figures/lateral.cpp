@@ -91,8 +91,11 @@ std::vector<Figure> lateral_figures(const ResultView& result) {
   p.y = {.title = "amplification factor", .first = 0.0, .last = highest};
   p.curves.push_back(forbidden_area(r, highest));
   for (std::size_t c = 0; c < r.cases.size(); ++c) {
+    const std::string& shaft = r.cases[c].shaft;
     Curve peaks{
-        .name = case_name(static_cast<int>(c)), .paint = series_paint(c), .has_line = false};
+        .name = case_name(static_cast<int>(c)) + (shaft.empty() ? "" : ", " + shaft_text(shaft)),
+        .paint = series_paint(c),
+        .has_line = false};
     peaks.has_marker = true;
     peaks.size = 9.0;
     for (const LateralPeak& peak : r.peaks) {
@@ -132,6 +135,9 @@ std::vector<Figure> response_figures(const ResultView& result) {
   for (int number = 0; number < static_cast<int>(r.cases.size()); ++number) {
     Figure f{.variant = case_name(number), .height = 400.0};
     f.subtitle = "Response to " + planes_text(r, number);
+    const std::string& shaft = r.cases[static_cast<std::size_t>(number)].shaft;
+    if (!shaft.empty()) f.subtitle += " of " + shaft_text(shaft);
+    const double allowed = allowed_vibration(r, number);
     Panel p;
     p.x = {.title = shown_heading("speed", "rpm"),
            .first = r.speeds.front() / speed_unit().size,
@@ -150,12 +156,11 @@ std::vector<Figure> response_figures(const ResultView& result) {
     Curve limit{.name = "limit", .paint = Paint::alarm};
     limit.dash = Dash::dashed;
     limit.x = {r.minimum_speed / speed_unit().size, r.maximum_speed / speed_unit().size};
-    limit.y = {unit.factor * r.vibration_limit, unit.factor * r.vibration_limit};
+    limit.y = {unit.factor * allowed, unit.factor * allowed};
     if (r.minimum_speed < r.maximum_speed) p.curves.push_back(std::move(limit));
     add_speeds(r, f, p);
     f.notes.push_back(fmt::format("Allowed from minimum to maximum speed: {:.{}f} {} peak to peak.",
-                                  unit.factor * r.vibration_limit, unit.factor < 1e6 ? 3 : 1,
-                                  unit.name));
+                                  unit.factor * allowed, unit.factor < 1e6 ? 3 : 1, unit.name));
     f.panels.push_back(std::move(p));
     figures.push_back(std::move(f));
   }
@@ -183,11 +188,14 @@ std::vector<Figure> stability_figures(const ResultView& result) {
     p.curves.push_back(std::move(c));
   } else {
     f.notes.push_back(
-        "The least damped mode of the model and of each variant; Q0 is that of the worst.");
+        states.front().shaft.empty()
+            ? "The least damped mode of the model and of each variant; Q0 is that of the worst."
+            : "The least damped mode of each shaft; Q0 is that of the one with the stiffness.");
   }
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (i == 0 || states[i].variant != states[i - 1].variant) {
-      const std::string name = state_name(states[i].variant);
+    if (i == 0 || states[i].variant != states[i - 1].variant ||
+        states[i].shaft != states[i - 1].shaft) {
+      const std::string name = state_name(states[i].variant, states[i].shaft);
       p.curves.push_back({.name = name, .paint = series_paint(p.curves.size())});
     }
     add(states[i], p.curves.back());

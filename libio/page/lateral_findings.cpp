@@ -57,10 +57,6 @@ Sheet checks_sheet(const LateralReport& r) {
   return sheet;
 }
 
-std::string case_of(int number) {
-  return std::to_string(number + 1);
-}
-
 Sheet planes_sheet(const LateralReport& r) {
   const auto mode = [&](const LateralPlane& p) -> const LateralCase& {
     return r.cases[static_cast<std::size_t>(p.of_case)];
@@ -69,7 +65,7 @@ Sheet planes_sheet(const LateralReport& r) {
       "Cases of unbalance: twice 6350 W / N at antinodes of modes and overhung ends",
       sheet_table(
           r.planes,
-          {{"case", [](const LateralPlane& p) { return case_of(p.of_case); }},
+          {{"case", [&](const LateralPlane& p) { return case_with_shaft(r, p.of_case); }},
            {"placed at",
             [=](const LateralPlane& p) { return std::string(name_of(mode(p).places)); }},
            {shown_heading("mode at", "rpm"),
@@ -88,20 +84,23 @@ Sheet vibration_sheet(const LateralReport& r) {
   };
   Sheet sheet{
       "Largest vibration at probes from minimum to maximum speed, case by case",
-      sheet_table(r.cases,
-                  {{"case", [](const LateralCase&, int number) { return std::to_string(number); }},
-                   {"probe",
-                    [&](const LateralCase& c) {
-                      return r.probes[static_cast<std::size_t>(c.probe)].station;
-                    }},
-                   {shown_heading("at", "rpm"),
-                    [](const LateralCase& c) { return rpm_text(c.vibration_speed); }},
-                   {fmt::format("peak to peak [{}]", unit.name),
-                    [=](const LateralCase& c) { return vibration(c.vibration); }},
-                   {fmt::format("allowed [{}]", unit.name),
-                    [&](const LateralCase&) { return vibration(r.vibration_limit); }},
-                   {"scaling for clearances",
-                    [](const LateralCase& c) { return texts::number_text(c.scaling, ".3g"); }}})};
+      sheet_table(
+          r.cases,
+          {{"case", [&](const LateralCase&, int number) { return case_with_shaft(r, number - 1); }},
+           {"probe",
+            [&](const LateralCase& c) {
+              return r.probes[static_cast<std::size_t>(c.probe)].station;
+            }},
+           {shown_heading("at", "rpm"),
+            [](const LateralCase& c) { return rpm_text(c.vibration_speed); }},
+           {fmt::format("peak to peak [{}]", unit.name),
+            [=](const LateralCase& c) { return vibration(c.vibration); }},
+           {fmt::format("allowed [{}]", unit.name),
+            [&](const LateralCase&, int number) {
+              return vibration(allowed_vibration(r, number - 1));
+            }},
+           {"scaling for clearances",
+            [](const LateralCase& c) { return texts::number_text(c.scaling, ".3g"); }}})};
   return sheet;
 }
 
@@ -119,7 +118,7 @@ Sheet peaks_sheet(const LateralReport& r) {
       "Peaks of the vibration at probes",
       sheet_table(
           peaks_of(r),
-          {{"case", [](const LateralPeak& p) { return case_of(p.of_case); }},
+          {{"case", [&](const LateralPeak& p) { return case_with_shaft(r, p.of_case); }},
            {shown_heading("peak", "rpm"), [](const LateralPeak& p) { return rpm_text(p.speed); }},
            {"probe",
             [&](const LateralPeak& p) {
@@ -141,18 +140,18 @@ Sheet peaks_sheet(const LateralReport& r) {
 
 Sheet scaled_clearances_sheet(const LateralReport& r) {
   return {"Running clearances beside the scaled response up to the trip speed",
-          sheet_table(r.clearances,
-                      {{"case", [](const LateralClearance& c) { return case_of(c.of_case); }},
-                       shown("name").as("clearance of"),
-                       shown("left", "mm", ".4f").as("beside the rotor at rest"),
-                       shown("largest", "mm", ".4f").as("scaled response"),
-                       {shown_heading("at", "rpm"),
-                        [](const LateralClearance& c) { return rpm_text(c.speed); }},
-                       {"share", [](const LateralClearance& c) {
-                          return std::isfinite(c.share())
-                                     ? fmt::format("{:.1f} %", 100.0 * c.share())
-                                     : std::string("touches at rest");
-                        }}})};
+          sheet_table(
+              r.clearances,
+              {{"case", [&](const LateralClearance& c) { return case_with_shaft(r, c.of_case); }},
+               shown("name").as("clearance of"),
+               shown("left", "mm", ".4f").as("beside the rotor at rest"),
+               shown("largest", "mm", ".4f").as("scaled response"),
+               {shown_heading("at", "rpm"),
+                [](const LateralClearance& c) { return rpm_text(c.speed); }},
+               {"share", [](const LateralClearance& c) {
+                  return std::isfinite(c.share()) ? fmt::format("{:.1f} %", 100.0 * c.share())
+                                                  : std::string("touches at rest");
+                }}})};
 }
 
 Sheet stability_sheet(const LateralReport& r) {
@@ -177,38 +176,70 @@ Sheet stability_sheet(const LateralReport& r) {
   return {"Stability", table};
 }
 
-/// Level I of every state, where the model has variants.
+/// Level I of every state, where the model has variants or several shafts.
 Sheet states_sheet(const LateralParts& parts) {
-  return {"Stability, level I, state by state; the table above has the worst",
-          sheet_table(parts.level_one,
-                      {{"state", [](const LevelOneState& s) { return state_name(s.variant); }},
-                       shown("log_decrement", "", ".4f"),
-                       {"bears Q0 of", [](const LevelOneState& s) {
-                          return s.limit == 0.0           ? std::string("0, unstable")
-                                 : std::isfinite(s.limit) ? format_engineering(s.limit, "N/m")
-                                                          : std::string("any");
-                        }}})};
+  return {
+      parts.shafts.empty()
+          ? "Stability, level I, state by state; the table above has the worst"
+          : "Stability, level I, shaft by shaft; the table above has the worst state of the one "
+            "with the cross-coupled stiffness",
+      sheet_table(parts.level_one,
+                  {{"state", [](const LevelOneState& s) { return state_name(s.variant, s.shaft); }},
+                   shown("log_decrement", "", ".4f"),
+                   {"bears Q0 of", [](const LevelOneState& s) {
+                      return s.limit == 0.0           ? std::string("0, unstable")
+                             : std::isfinite(s.limit) ? format_engineering(s.limit, "N/m")
+                                                      : std::string("any");
+                    }}})};
 }
 
 Sheet level_two_sheet(const LateralParts& parts) {
   return {"Stability, level II: seals put in one by one, each with those before it",
           sheet_table(parts.level_two, {{"the rotor",
                                          [](const LevelTwoStep& s) {
-                                           return s.variant.empty() ? s.parts
-                                                                    : s.variant + ": " + s.parts;
+                                           if (s.variant.empty() && s.shaft.empty()) return s.parts;
+                                           return state_name(s.variant, s.shaft) + ": " + s.parts;
                                          }},
                                         shown("log_decrement", "", ".4f"),
                                         shown("frequency", "rpm", ".1f").as("of the mode at")})};
 }
 
-Sheet forces_sheet(const LateralParts& parts) {
+/// Shafts of a machine that has several.
+Sheet shafts_sheet(const LateralReport& r, const LateralParts& parts) {
+  const VibrationUnit unit = vibration_unit(r);
+  Sheet sheet{"Shafts by their own speeds",
+              sheet_table(parts.shafts,
+                          {{"shaft", [](const LateralShaft& s) { return shaft_text(s.name); }},
+                           shown("ratio", "", ".6g"),
+                           {shown_heading("from", "rpm"),
+                            [](const LateralShaft& s) { return rpm_text(s.minimum_speed); }},
+                           {shown_heading("to", "rpm"),
+                            [](const LateralShaft& s) { return rpm_text(s.maximum_speed); }},
+                           {shown_heading("trip", "rpm"),
+                            [](const LateralShaft& s) { return rpm_text(s.trip_speed); }},
+                           {fmt::format("allowed vibration [{}]", unit.name),
+                            [=](const LateralShaft& s) {
+                              return texts::number_text(unit.factor * s.vibration_limit,
+                                                        unit.factor < 1e6 ? ".3f" : ".1f");
+                            }},
+                           {shown_heading("critical on rigid supports", "rpm"),
+                            [](const LateralShaft& s) { return rpm_text(s.rigid_critical_speed); }},
+                           shown("coupled_station").as("cross-coupled stiffness at")})};
+  sheet.notes.emplace_back(
+      "All other speeds of this report are those of the first shaft; margins are the same by "
+      "both.");
+  return sheet;
+}
+
+Sheet forces_sheet(const LateralReport& r, const LateralParts& parts) {
   return {
       "Largest forces of the unbalance on supports up to the trip speed",
-      sheet_table(parts.forces, {{"case", [](const LateralForce& f) { return case_of(f.of_case); }},
-                                 shown("kind"),
-                                 shown("name").as("support"),
-                                 shown("force", "N", ".4g"),
-                                 shown("speed", "rpm", ".1f").as("at")})};
+      sheet_table(parts.forces,
+                  {{"case", [&](const LateralForce& f) { return case_with_shaft(r, f.of_case); }},
+                   shown("kind"),
+                   shown("name").as("support"),
+                   shown("force", "N", ".4g"),
+                   shown("speed", "rpm", ".1f").as("at")})};
 }
 
 /// The conditions under which the machine runs.
@@ -248,15 +279,16 @@ Findings lateral_findings(const ResultView& result) {
   }
   f.summary = rules_table(r);
   f.first.push_back(checks_sheet(r));
+  const auto& parts = result_of<LateralParts>(result);
+  if (!parts.shafts.empty()) f.sheets.push_back(shafts_sheet(r, parts));
   f.sheets.push_back(planes_sheet(r));
   f.sheets.push_back(vibration_sheet(r));
   if (!r.peaks.empty()) f.sheets.push_back(peaks_sheet(r));
   if (!r.clearances.empty()) f.sheets.push_back(scaled_clearances_sheet(r));
   f.sheets.push_back(stability_sheet(r));
-  const auto& parts = result_of<LateralParts>(result);
   if (!parts.level_one.empty()) f.sheets.push_back(states_sheet(parts));
   if (!parts.level_two.empty()) f.sheets.push_back(level_two_sheet(parts));
-  if (!parts.forces.empty()) f.sheets.push_back(forces_sheet(parts));
+  if (!parts.forces.empty()) f.sheets.push_back(forces_sheet(r, parts));
   for (const auto& sheets : {critical_sheets(result), rest_sheets(result)}) {
     f.sheets.insert(f.sheets.end(), sheets.begin(), sheets.end());
   }

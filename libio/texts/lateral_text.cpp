@@ -74,12 +74,16 @@ std::string decrement_text(double log_decrement) {
   return log_decrement > 0.0 ? "no mode oscillates" : "the rotor leaves its place without a whirl";
 }
 
-/// Level I of the model and its variants, where there are any.
+/// Level I of the model and its variants, and of each shaft, where there are any.
 std::string level_one_text(const LateralParts& parts) {
   if (parts.level_one.empty()) return "";
-  return "\nLevel I, state by state; what is told above is that of the worst\n\n" +
+  const char* what = parts.shafts.empty()
+                         ? "state by state; what is told above is that of the worst"
+                         : "shaft by shaft; what is told above is that of the worst state of the "
+                           "shaft with the stiffness";
+  return fmt::format("\nLevel I, {}\n\n", what) +
          table_of(parts.level_one,
-                  {{"state", [](const LevelOneState& s) { return state_name(s.variant); }},
+                  {{"state", [](const LevelOneState& s) { return state_name(s.variant, s.shaft); }},
                    shown("log_decrement", "", ".4f"),
                    {"bears Q0 of", [](const LevelOneState& s) {
                       return s.limit == 0.0           ? "0, unstable"
@@ -110,59 +114,96 @@ std::string sides_text(const LateralPeak& p) {
 }
 
 std::string case_text(const LateralReport& r, int of_case) {
-  const std::string& variant = r.cases[static_cast<std::size_t>(of_case)].variant;
-  return variant.empty() ? std::to_string(of_case + 1)
-                         : fmt::format("{} ({})", of_case + 1, variant);
+  const LateralCase& c = r.cases[static_cast<std::size_t>(of_case)];
+  return c.variant.empty() && c.shaft.empty()
+             ? std::to_string(of_case + 1)
+             : fmt::format("{} ({})", of_case + 1, state_name(c.variant, c.shaft));
+}
+
+bool has_several_shafts(const LateralReport& r) {
+  return !r.cases.empty() && !r.cases.front().shaft.empty();
+}
+
+/// The shafts of a machine that has several; all other speeds are those of the first one.
+std::string shafts_text(const LateralReport& r, const LateralParts& parts) {
+  if (parts.shafts.empty()) return "";
+  const VibrationUnit unit = vibration_unit(r);
+  return "\nShafts by their own speeds; all other speeds are those of the first shaft, but where "
+         "they are called own\n\n" +
+         table_of(parts.shafts,
+                  {{"shaft", [](const LateralShaft& s) { return shaft_text(s.name); }},
+                   shown("ratio", "", ".6g"),
+                   shown("minimum_speed", "rpm", ".0f").as("from"),
+                   shown("maximum_speed", "rpm", ".0f").as("to"),
+                   shown("trip_speed", "rpm", ".0f").as("trip"),
+                   {"vibration [" + unit.name + "]",
+                    [=](const LateralShaft& s) {
+                      return fmt::format("{:.{}f}", unit.factor * s.vibration_limit,
+                                         unit.factor < 1e6 ? 3 : 1);
+                    }},
+                   shown("rigid_critical_speed", "rpm", ".1f").as("on rigid supports"),
+                   shown("coupled_station").as("Q acts at")});
 }
 
 std::string cases_text(const LateralReport& r) {
   const auto of = [&](const LateralPlane& p) -> const LateralCase& {
     return r.cases[static_cast<std::size_t>(p.of_case)];
   };
-  return table_of(
-      r.planes,
-      {{"case", [&](const LateralPlane& p) { return case_text(r, p.of_case); }},
-       {"placed at", [&](const LateralPlane& p) { return std::string(name_of(of(p).places)); }},
-       {shown_heading("for the mode at", "rpm"),
-        [&](const LateralPlane& p) { return shown_number(of(p).mode_speed, "rpm", ".1f"); }},
-       shown("station").as("unbalance at"),
-       shown("moment", "g.mm", ".1f").as("unbalance"),
-       {"phase [deg]",
-        [](const LateralPlane& p) { return fmt::format("{:.0f}", p.phase / degree); }}});
+  TableColumns<LateralPlane> columns{
+      {"case", [&](const LateralPlane& p) { return case_text(r, p.of_case); }},
+      {"placed at", [&](const LateralPlane& p) { return std::string(name_of(of(p).places)); }},
+      {shown_heading("for the mode at", "rpm"),
+       [&](const LateralPlane& p) { return shown_number(of(p).mode_speed, "rpm", ".1f"); }},
+      shown("station").as("unbalance at"),
+      shown("moment", "g.mm", ".1f").as("unbalance"),
+      {"phase [deg]",
+       [](const LateralPlane& p) { return fmt::format("{:.0f}", p.phase / degree); }}};
+  if (has_several_shafts(r)) {
+    columns.insert(columns.begin() + 3, {shown_heading("own", "rpm"), [&](const LateralPlane& p) {
+                                           return own_speed_text(r, p.of_case, of(p).mode_speed);
+                                         }});
+  }
+  return table_of(r.planes, columns);
 }
 
 std::string peaks_text(const LateralReport& r) {
   if (r.peaks.empty()) return "  The responses have no peaks.\n";
   const VibrationUnit unit = vibration_unit(r);
-  return table_of(
-      r.peaks,
-      {{"case", [&](const LateralPeak& p) { return case_text(r, p.of_case); }},
-       {shown_heading("peak", "rpm"),
-        [](const LateralPeak& p) { return shown_number(p.speed, "rpm", ".1f"); }},
-       {"probe",
-        [&](const LateralPeak& p) { return r.probes[static_cast<std::size_t>(p.row)].station; }},
-       {"peak to peak [" + unit.name + "]",
-        [=](const LateralPeak& p) {
-          return fmt::format("{:.{}f}", 2.0 * unit.factor * p.amplitude, unit.factor < 1e6 ? 4 : 2);
-        }},
-       {"amplification",
-        [](const LateralPeak& p) { return texts::number_text(p.amplification(), ".2f"); }},
-       {"from", [](const LateralPeak& p) { return sides_text(p); }},
-       {"margin",
-        [](const LateralPeak& p) {
-          return amount_text(LateralRule::separation_margin, p.margin.actual);
-        }},
-       {"required", [](const LateralPeak& p) {
-          if (p.margin.required == 0.0) return std::string("none");
-          return amount_text(LateralRule::separation_margin, p.margin.required);
-        }}});
+  TableColumns<LateralPeak> columns{
+      {"case", [&](const LateralPeak& p) { return case_text(r, p.of_case); }},
+      {shown_heading("peak", "rpm"),
+       [](const LateralPeak& p) { return shown_number(p.speed, "rpm", ".1f"); }},
+      {"probe",
+       [&](const LateralPeak& p) { return r.probes[static_cast<std::size_t>(p.row)].station; }},
+      {"peak to peak [" + unit.name + "]",
+       [=](const LateralPeak& p) {
+         return fmt::format("{:.{}f}", 2.0 * unit.factor * p.amplitude, unit.factor < 1e6 ? 4 : 2);
+       }},
+      {"amplification",
+       [](const LateralPeak& p) { return texts::number_text(p.amplification(), ".2f"); }},
+      {"from", [](const LateralPeak& p) { return sides_text(p); }},
+      {"margin",
+       [](const LateralPeak& p) {
+         return amount_text(LateralRule::separation_margin, p.margin.actual);
+       }},
+      {"required", [](const LateralPeak& p) {
+         if (p.margin.required == 0.0) return std::string("none");
+         return amount_text(LateralRule::separation_margin, p.margin.required);
+       }}};
+  if (has_several_shafts(r)) {
+    columns.insert(columns.begin() + 2, {shown_heading("own", "rpm"), [&](const LateralPeak& p) {
+                                           return own_speed_text(r, p.of_case, p.speed);
+                                         }});
+  }
+  return table_of(r.peaks, columns);
 }
 
-/// "minimum clearance: 5 seal".
+/// "minimum clearance: 5 seal", "hp: 5 seal".
 std::string place_text(const LateralCheck& c) {
   const std::string place =
       c.missing.empty() ? c.place : fmt::format("not checked: {} not given", c.missing);
-  return c.variant.empty() ? place : fmt::format("{}: {}", c.variant, place);
+  if (c.variant.empty() && c.shaft.empty()) return place;
+  return fmt::format("{}: {}", state_name(c.variant, c.shaft), place);
 }
 
 std::string forces_text(const LateralReport& r, const LateralParts& parts) {
@@ -181,14 +222,31 @@ std::string level_two_text(const LateralParts& parts) {
   return "\nLevel II: logarithmic decrement at the maximum speed, seal by seal\n\n" +
          table_of(parts.level_two, {{"the rotor",
                                      [](const LevelTwoStep& s) {
-                                       return s.variant.empty() ? s.parts
-                                                                : s.variant + ": " + s.parts;
+                                       if (s.variant.empty() && s.shaft.empty()) return s.parts;
+                                       return state_name(s.variant, s.shaft) + ": " + s.parts;
                                      }},
                                     shown("log_decrement", "", ".4f"),
                                     shown("frequency", "rpm", ".1f").as("of the mode at")});
 }
 
 }  // namespace
+
+std::string case_with_shaft(const LateralReport& report, int of_case) {
+  const std::string& shaft = report.cases[static_cast<std::size_t>(of_case)].shaft;
+  return shaft.empty() ? std::to_string(of_case + 1)
+                       : fmt::format("{} ({})", of_case + 1, shaft_text(shaft));
+}
+
+double allowed_vibration(const LateralReport& report, int of_case) {
+  for (const LateralCheck& c : report.checks) {
+    if (c.rule == LateralRule::vibration && c.of_case == of_case) return c.limit;
+  }
+  return report.vibration_limit;
+}
+
+std::string own_speed_text(const LateralReport& report, int of_case, double speed) {
+  return shown_number(report.cases[static_cast<std::size_t>(of_case)].order * speed, "rpm", ".1f");
+}
 
 std::vector<std::string> check_header() {
   return {"rule", "case", "where", shown_heading("at", "rpm"), "found", "asked for", "verdict"};
@@ -311,10 +369,15 @@ std::string text_of(const LateralStudy& study) {
       "Lateral analysis after API 617 and API 684: {} to {}, trip at {}\n\n",
       shown_number(r.minimum_speed, "rpm", ".0f"), shown_value(r.maximum_speed, "rpm", ".0f"),
       shown_value(r.trip_speed, "rpm", ".0f"));
-  text +=
-      table_of(r.journals, {shown("name").as("journal"), shown("mass", "kg", ".2f").as("carries")});
+  TableColumns<LateralJournal> journal_columns{shown("name").as("journal"),
+                                               shown("mass", "kg", ".2f").as("carries")};
+  if (has_several_shafts(r)) {
+    journal_columns.push_back({"of", [](const LateralJournal& j) { return shaft_text(j.shaft); }});
+  }
+  text += table_of(r.journals, journal_columns) + shafts_text(r, study.parts);
   text += "\n" + text_of(study.criticals);
-  if (!study.parts.level_one.empty()) {
+  const auto is_of_variant = [](const LevelOneState& s) { return !s.variant.empty(); };
+  if (std::ranges::any_of(study.parts.level_one, is_of_variant)) {
     text +=
         "\n  Critical speeds and the Campbell diagram are those of the model itself, without its "
         "variants.\n";

@@ -16,10 +16,26 @@ struct VibrationUnit {
 /// @throws FileError  for a report of a file, if the unit is no length
 VibrationUnit vibration_unit(const LateralReport& report);
 
-/// Name of a state of the machine: "the model itself", or that of a variant.
-inline std::string state_name(const std::string& variant) {
-  return variant.empty() ? "the model itself" : variant;
+/// A shaft of a machine that has several, as its rows name it: "first shaft", "hp"; empty: of one
+/// that has one.
+inline std::string shaft_text(const std::string& shaft) {
+  return shaft == "shaft" ? "first shaft" : shaft;
 }
+
+/// Name of a state of the machine: "the model itself", that of a variant, of a shaft or of both.
+inline std::string state_name(const std::string& variant, const std::string& shaft = "") {
+  if (shaft.empty()) return variant.empty() ? "the model itself" : variant;
+  return variant.empty() ? shaft_text(shaft) : variant + ", " + shaft_text(shaft);
+}
+
+/// Number of a case from 1, of a machine with several shafts with that of its unbalance: "3 (hp)".
+std::string case_with_shaft(const LateralReport& report, int of_case);
+
+/// Vibration that is allowed at the probe where a case has most of it [m].
+double allowed_vibration(const LateralReport& report, int of_case);
+
+/// The own speed of the shaft of a case where the first one has a speed [rad/s].
+std::string own_speed_text(const LateralReport& report, int of_case, double speed);
 
 /// Cells of the table of passes and failures, with its header.
 std::vector<std::string> check_header();

@@ -201,6 +201,7 @@ class Methods:
         cross_coupling: Optional[_Value] = ...,
         stages: Optional[_Value] = ...,
         gas_density: Optional[_Value] = ...,
+        coupled_shaft: Optional[_Value] = ...,
         variant: Optional[_Over] = ...,
         out: Optional[_Value] = ...,
         threads: Optional[_Value] = ...,
