@@ -32,6 +32,7 @@
   unbalance_over_kind(), \
   frf_kind(),            \
   sensitivity_kind(),    \
+  support_fit_kind(),    \
   lateral_response_kind(), \
   coupling_kind(),       \
   balancing_kind(),      \

@@ -3,7 +3,9 @@
 
 #include "libdyn/system/model_facts.hpp"
 #include "libio/drawing/terminal_layout.hpp"
+#include "libio/measured/law_file.hpp"
 #include "libio/model/file_text.hpp"
+#include "libio/model/fitted_laws.hpp"
 #include "libio/model/model_doubts.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
@@ -29,7 +31,8 @@ std::vector<Problem> doubts_of(const Invocation& call, const ModelFacts& facts,
                                const Model& model) {
   const std::string text = call.model_text.empty() ? file_text(call.file) : call.model_text;
   std::vector<Problem> doubts =
-      model_doubts(text, call.file, call.sets, std::filesystem::path(call.file).parent_path());
+      model_doubts(text, call.file, call.sets,
+                   NamedFiles(std::filesystem::path(call.file).parent_path()).with(law_table));
   for (const Problem& doubt : rest_doubts(facts, model)) doubts.push_back(doubt);
   return doubts;
 }
@@ -43,13 +46,21 @@ Report run_check(const Invocation& call) {
   if (const auto rolling = std::ssize(rolling_bearings(model.contacts)); rolling > 0) {
     report.record.set("rolling_bearings", static_cast<long>(rolling));
   }
+  const SupportFits fitted = fitted_laws(model);
+  if (!fitted.fits.empty()) {
+    Record list = Record::array();
+    for (const SupportFit& fit : fitted.fits) list.add(record_of(fit));
+    report.record.set("support_fits", std::move(list));
+  }
   report.text = shown_line(model.title.empty() ? call.file : model.title) + "\n\n";
   if (!model.structure.shaft.empty()) report.text += drawn(model, assembler);
   const std::vector<Problem> doubts = doubts_of(call, facts, model);
   report.record.set("warnings", record_of_problems(doubts));
   report.text += text_of(facts, model) + warnings_text(doubts);
-  write_file(call, model, report,
-             [&](ResultWriter& file) { write_points(file, model, assembler); });
+  write_file(call, model, report, [&](ResultWriter& file) {
+    write_points(file, model, assembler);
+    if (!fitted.fits.empty()) write_result(file, fitted);
+  });
   return report;
 }
 

@@ -33,6 +33,7 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"frf", disks}, {"layout", "frf"}},
       {{"sensitivity", WHIRL_SOURCE_DIR "/models/magnetic_bearing.toml"},
        {"layout", "sensitivity"}},
+      {{"check", WHIRL_SOURCE_DIR "/tests/data/pedestal/pedestal.toml"}, {"support_fit"}},
       {{"lateral", disks, "--maximum-speed", "6000rpm"},
        {"layout", "lateral", "campbell", "log_decrement", "critical_map", "lateral_response",
         "coupling"}},
