@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -12,7 +13,14 @@
 
 namespace whirl::inline contact {
 
-/// A place where the rotor may touch a stator, as the model file says it.
+/// Which limit of which support of the structure a contact stands for.
+struct LimitOfSupport {
+  std::size_t support = 0, limit = 0;
+  bool operator==(const LimitOfSupport&) const = default;
+};
+
+/// A place where the rotor may touch a stator, as the model file says it; or an element of the
+/// equations that is one of them to the solvers: a rolling bearing, or a limit of a signal.
 struct Contact {
   std::string name;
   Station at;
@@ -23,6 +31,7 @@ struct Contact {
   Friction friction;
   AnyContactLaw<> law;
   AnyGeometry geometry{};  ///< of a law that has none of its own
+  std::optional<LimitOfSupport> limits{};
   Where where{};
 
   static constexpr auto fields() {
@@ -41,6 +50,11 @@ inline bool is_rolling_bearing(const Contact& contact) {
   return std::holds_alternative<geometry::RollingElements>(contact.geometry);
 }
 
+/// Whether a contact is one between the rotor and a stator: no rolling bearing, no limit.
+inline bool is_with_stator(const Contact& contact) {
+  return !is_rolling_bearing(contact) && !contact.limits;
+}
+
 /// The rolling bearings among contacts, or the contacts with stators among them.
 inline std::vector<Contact> rolling_bearings(const std::vector<Contact>& all) {
   std::vector<Contact> found;
@@ -49,7 +63,7 @@ inline std::vector<Contact> rolling_bearings(const std::vector<Contact>& all) {
 }
 inline std::vector<Contact> stator_contacts(const std::vector<Contact>& all) {
   std::vector<Contact> found;
-  std::remove_copy_if(all.begin(), all.end(), std::back_inserter(found), is_rolling_bearing);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(found), is_with_stator);
   return found;
 }
 

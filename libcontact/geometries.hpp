@@ -11,6 +11,7 @@
 #include "libcontact/geometry/face.hpp"
 #include "libcontact/geometry/ring.hpp"
 #include "libcontact/geometry/rolling_elements.hpp"
+#include "libcontact/geometry/saturation.hpp"
 #include "libcontact/geometry/stop.hpp"
 
 namespace whirl::inline contact {
@@ -21,7 +22,8 @@ using AnyGeometry = std::variant<  //
     geometry::BladeRow,            //
     geometry::Stop,                //
     geometry::Ellipse,             //
-    geometry::RollingElements>;
+    geometry::RollingElements,     //
+    geometry::Saturation>;
 
 inline std::string_view name_of(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.name; }, any);
@@ -31,6 +33,16 @@ inline Closing closing_of(const AnyGeometry& any) {
 }
 inline bool rubs_apart(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.rubs_apart; }, any);
+}
+/// Whether the depth follows from rates of the motion, too.
+inline bool reads_rates(const AnyGeometry& any) {
+  return std::visit(
+      [](const auto& g) {
+        return requires {
+          g.reads_rates;
+        };
+      },
+      any);
 }
 inline bool may_stick(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.may_stick; }, any);

@@ -10,6 +10,7 @@
 ///   static constexpr bool takes_offset;       the clearance may lie off the rotor's axis
 ///   static constexpr bool turns;              the place turns: when it is matters
 ///   static constexpr bool is_wall;            it is met all around, on a curve that is no circle
+///   static constexpr bool reads_rates;        only of one whose depth follows from rates, too
 ///   static constexpr auto fields();           keys of one that laws share (struct field)
 ///   int places() const;                       of one contact of the model
 ///   Self place(i, speeds) const;              number i of them at speeds of what touches

@@ -52,18 +52,23 @@ void add_depth(const ContactSystem& system, const SlopePanel& panel, double valu
   const Vec y = m.states.col(0);
   const ContactForces f =
       kinematics(c, graze.time * system.phase_rate(), y.data(), system.layout());
-  const Vec by_state = c.U.transpose() * f.n / c.clearance;
+  const Vec by_eta = c.U.transpose() * f.n / c.clearance;
+  const Vec by_rate = c.is_limit() ? Vec(c.V.transpose() * f.n / c.clearance) : Vec(0 * by_eta);
   const Vec weights = panel.weights(value);
   const NumberSlopes slopes(panel.secants(), weights);
   const StateLayout layout = system.layout();
   const SlopedContact contact = sloped_contact(system, i, slopes);
   const Vec2 u = c.U * layout.eta(y), rate = c.U * layout.rate(y);
-  const GapMotion<ByParameter> motion{{u(0), u(1)}, {rate(0), rate(1)}, {rate(0), rate(1)}};
+  const Vec2 slip = c.rubs_apart() ? Vec2(c.V * layout.rate(y)) : rate;
+  const GapMotion<ByParameter> motion{{u(0), u(1)}, {rate(0), rate(1)}, {slip(0), slip(1)}};
   const ByParameter depth =
       contact.gap(graze.time * system.phase_rate(), motion).depth / contact.clearance;
-  to.depth_by_parameter = by_state.dot(layout.eta(m.by_parameter[0]).col(0)) + depth.slopes(0);
+  const auto by_state = [&](const Mat& by) {
+    return Vec(layout.eta(by).transpose() * by_eta + layout.rate(by).transpose() * by_rate);
+  };
+  to.depth_by_parameter = by_state(m.by_parameter[0].col(0))(0) + depth.slopes(0);
   if (m.by_start.empty()) return;
-  to.depth_by_start = layout.eta(m.by_start[0]).transpose() * by_state;
+  to.depth_by_start = by_state(m.by_start[0]);
   if (!change.is_none()) to.depth_by_start = change.matrix().transpose() * to.depth_by_start;
 }
 

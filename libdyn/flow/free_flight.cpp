@@ -88,7 +88,9 @@ std::optional<Mat> lyapunov(const Mat& A, const Mat& Q) {
 /// Nothing where a revolution is too long beside the fastest motion, nor under loads that do not
 /// repeat with it.
 std::optional<LinearFlow> flow_over_a_revolution(const ContactSystem& system) {
-  if (!LinearFlow::abilities.can(system)) return std::nullopt;
+  // what saturates is not told from displacements alone
+  const bool saturates = has_need(system, Need::saturation);
+  if (saturates || !LinearFlow::abilities.can(system)) return std::nullopt;
   try {
     return LinearFlow(system, system.period(), 1);
   } catch (const NumericalError&) {

@@ -23,7 +23,7 @@ struct Collocation {
   static constexpr std::string_view name = "collocation";
   /// Its polynomials are forces of rings and stops.
   static constexpr std::array cannot{Need::other_orders, Need::own_frequencies, Need::films,
-                                     Need::blades, Need::faces};
+                                     Need::blades,       Need::faces,           Need::saturation};
   static constexpr Abilities abilities{"method collocation", cannot, "take the method taylor"};
 
   /// Integrates over whole revolutions from where the state is; see Dop853::integrate. Dense output

@@ -136,7 +136,7 @@ System stiffened(const Model& model, const Scene& scene, System system) {
     if (reduced.owner == owner) continue;  // another place
     owner = reduced.owner;
     const Contact& c = model.contacts[static_cast<std::size_t>(owner)];
-    if (is_rolling_bearing(c)) continue;  // linear systems have it
+    if (!is_with_stator(c)) continue;  // linear systems have it
     const double depth = 1e-3 * c.clearance;
     // of the reduced contact, whose law knows how a blade bends
     const double k = normal_force(reduced.law, depth, 0.0) / depth;

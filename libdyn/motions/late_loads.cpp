@@ -17,16 +17,26 @@ double revolutions_until(const Beginning& begins, const Clock& clock) {
 LateLoads::LateLoads(const Model& model, const Scene& scene) {
   const Clock& clock = scene.contacts.clock();
   std::vector<double> instants;
-  for (const Unbalance& u : model.structure.unbalances) {
-    if (u.begins.is_late()) instants.push_back(revolutions_until(u.begins, clock));
-  }
+  const auto note = [&](const auto& loads) {
+    for (const auto& load : loads) {
+      if (load.begins.is_late()) instants.push_back(revolutions_until(load.begins, clock));
+    }
+  };
+  note(model.structure.unbalances);
+  note(model.structure.forces);
   std::ranges::sort(instants);
   instants.erase(std::ranges::unique(instants).begin(), instants.end());
   for (const double until : instants) {
     Model there = model;
+    // their stations stay: without these the mesh could be another one
+    const auto is_ahead = [&](const Beginning& begins) {
+      return begins.is_late() && revolutions_until(begins, clock) >= until;
+    };
     for (Unbalance& u : there.structure.unbalances) {
-      // its station stays: without it the mesh could be another one
-      if (u.begins.is_late() && revolutions_until(u.begins, clock) >= until) u.moment = 0.0;
+      if (is_ahead(u.begins)) u.moment = 0.0;
+    }
+    for (Force& f : there.structure.forces) {
+      if (is_ahead(f.begins)) f.size = 0.0;
     }
     const Assembler assembler = scene.assembler.with_loads_of(there.structure).value();
     Scene before{assembler, scene.system, scene.reduced, scene.error,

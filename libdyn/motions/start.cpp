@@ -8,6 +8,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/motions/equilibrium.hpp"
+#include "libdyn/motions/late_loads.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/analyses/modes.hpp"
@@ -29,7 +30,11 @@ Vec at_rest_under_gravity(const Model& model, const Scene& scene) {
   if (model.films.empty() && rolling_bearings(model.contacts).empty()) {
     require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
   }
-  return equilibrium(scene.contacts);
+  const bool is_late = std::ranges::any_of(
+      model.structure.forces, [](const Force& f) { return f.is_constant() && f.begins.is_late(); });
+  if (!is_late) return equilibrium(scene.contacts);
+  const LateLoads late(model, scene);
+  return equilibrium(*late.stages().front().system);
 }
 
 Vec end_of(const FullState* end, const Scene& scene, const NearestCoordinates& nearest) {

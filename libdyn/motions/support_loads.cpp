@@ -6,6 +6,7 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/analyses/connection_forces.hpp"
 #include "libfe/assembly/excitations.hpp"
+#include "libfe/assembly/support_equations.hpp"
 
 namespace whirl::inline dyn {
 
@@ -56,10 +57,16 @@ SupportLoads::SupportLoads(const Model& model, const Scene& scene)
   for (const Contact& c : model.contacts) {
     rows_of_bearings_.push_back(is_rolling_bearing(c) ? std::exchange(row, row + 2) : -1);
   }
-  if (!has_rigid_) return;
+  const bool any_limit =
+      std::ranges::any_of(model.contacts, [](const Contact& c) { return c.limits.has_value(); });
+  if (!has_rigid_ && !any_limit) return;
   add_loads(assembler, scene.contacts, forces.L);
   const DofMap full = of_full_vector(assembler.dofs());
   for (const Contact& c : model.contacts) {
+    if (c.limits) {
+      of_contacts_.push_back(shares_of_limit(*c.limits, assembler, forces.L));
+      continue;
+    }
     const PlaneRows rubbing = lateral_rows(full, assembler.point(c.at), assembler.point(c.against));
     of_contacts_.push_back(
         {forces.L * closing_rows(c, assembler, full).transpose(), forces.L * rubbing.transpose()});
@@ -69,6 +76,32 @@ SupportLoads::SupportLoads(const Model& model, const Scene& scene)
         forces.L *
         lateral_rows(full, assembler.point(film.at), assembler.point(film.against)).transpose());
   }
+}
+
+SupportLoads::ContactShares SupportLoads::shares_of_limit(const LimitOfSupport& of,
+                                                          const Assembler& assembler,
+                                                          const Sparse& rigid) const {
+  const Structure& structure = assembler.structure();
+  const Support& support = structure.supports[of.support];
+  const SignalLimit& limit = support.limits[of.limit];
+  const LimitedSignal signal =
+      limited_signal(structure, assembler.mesh(), assembler.dofs(), of.support, of.limit);
+  Share closing = Share::Zero(rigid.rows(), 2);
+  closing.col(0) = -(rigid * signal.force) / limit.force;
+  // what the support itself has less, in whose rows the signal goes on beyond its limit
+  const auto forces = support_forces(structure, assembler.mesh(), assembler.dofs());
+  const Eigen::Index first = first_film_ - 2 * std::ssize(forces);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    if (forces[i].support != &support) continue;
+    for (std::size_t k = 0; k < support.acts_on.size(); ++k) {
+      const InterfaceCoordinate& port = support.acts_on[k];
+      if (!(assembler.point(port.at) == forces[i].from)) continue;
+      const double part = limit.to_forces(static_cast<Eigen::Index>(k)) / limit.force;
+      closing.block<2, 1>(first + 2 * static_cast<Eigen::Index>(i), 0) +=
+          part * Vec2(port.x, port.y);
+    }
+  }
+  return {closing, Share::Zero(rigid.rows(), 2)};
 }
 
 void SupportLoads::add_loads(const Assembler& assembler, const ContactSystem& system,
@@ -106,7 +139,7 @@ void SupportLoads::at(const ContactSystem& system, const Instant& instant, const
     const ContactForces& f = forces[i];
     const Eigen::Index row = rows_of_bearings_[owner];
     if (row >= 0) out.segment<2>(row) += f.normal * f.n;
-    if (!has_rigid_) continue;
+    if (of_contacts_.empty()) continue;
     const ContactShares& share = of_contacts_[owner];
     linear -= share.closing * (f.normal * f.n);
     linear -= (contact.rubs_apart() ? share.rubbing : share.closing) * (f.friction * f.t());

@@ -49,12 +49,14 @@ class SupportLoads {
     Share closing, rubbing;  ///< of forces that close the contact, of friction that acts elsewhere
   };
 
+  ContactShares shares_of_limit(const LimitOfSupport& of, const Assembler& assembler,
+                                const Sparse& rigid) const;
   void add_loads(const Assembler& assembler, const ContactSystem& system, const Sparse& rigid);
 
   std::vector<Part> parts_;
   Mat K_, C_, M_;                               // 2 parts x coordinates
   std::vector<ReducedExcitation> loads_;        // on rigid parts
-  std::vector<ContactShares> of_contacts_;      // of the model; empty: no part is rigid
+  std::vector<ContactShares> of_contacts_;      // of the model; empty: none is asked for
   std::vector<Share> of_films_;                 // likewise
   Eigen::Index first_film_ = 0;                 // row
   std::vector<Eigen::Index> rows_of_bearings_;  // of all contacts; -1: of one with a stator

@@ -42,6 +42,8 @@ std::string_view name_of(Need need) {
       return "a contact of blades or rolling elements";
     case Need::faces:
       return "a contact of a face";
+    case Need::saturation:
+      return "a current or voltage that saturates";
     case Need::standstill:
       return "a rotor that does not spin forward";
     case Need::directions:
@@ -65,7 +67,10 @@ bool has_need(const ContactSystem& system, Need need) {
     case Need::blades:
       return any_contact(system, [](const ReducedContact& c) { return c.turns(); });
     case Need::faces:
-      return any_contact(system, [](const ReducedContact& c) { return c.rubs_apart(); });
+      return any_contact(system,
+                         [](const ReducedContact& c) { return c.rubs_apart() && !c.is_limit(); });
+    case Need::saturation:
+      return any_contact(system, [](const ReducedContact& c) { return c.is_limit(); });
     case Need::standstill:
       return !(system.Omega() > 0.0);
     case Need::directions:

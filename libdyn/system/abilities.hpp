@@ -19,6 +19,7 @@ enum class Need {
   films,                ///< oil films
   blades,               ///< contacts with many places, which turn
   faces,                ///< contacts whose friction acts elsewhere than the normal force
+  saturation,           ///< signals that saturate
   standstill,           ///< a rotor that does not spin forward
   directions            ///< gravity, bearings, contacts or forces that tell directions apart
 };
@@ -29,6 +30,7 @@ inline constexpr std::array needs{Need::other_orders,
                                   Need::films,
                                   Need::blades,
                                   Need::faces,
+                                  Need::saturation,
                                   Need::standstill,
                                   Need::directions};
 

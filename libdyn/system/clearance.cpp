@@ -80,7 +80,7 @@ struct Gap {
 std::vector<Gap> gaps_of(const Model& model, const Assembler& assembler) {
   std::vector<Gap> gaps;
   for (const Contact& c : model.contacts) {
-    if (is_rolling_bearing(c)) continue;
+    if (!is_with_stator(c)) continue;
     gaps.push_back({named("contact", c.name), c.clearance, c.offset, geometry_of(c),
                     assembler.point(c.at), assembler.point(c.against)});
   }

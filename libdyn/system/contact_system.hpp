@@ -61,6 +61,8 @@ struct ReducedContact {
 
   /// Whether friction acts elsewhere than the normal force.
   bool rubs_apart() const { return V.cols() > 0; }
+  /// Whether it is a limit of a signal, whose displacements are in U and rates in V.
+  bool is_limit() const { return reads_rates(geometry); }
   /// Whether it is one of many places that turn, some of which are apart.
   bool turns() const { return whirl::turns(geometry); }
   ContactSpace space() const { return {clearance, rim_speed}; }
@@ -174,6 +176,8 @@ class ContactSystem {
   /// Adds a contact at every place of its geometry.
   /// @param owner  number of the contact in the model, from 0
   void add_contact(const Reduction& by, const Contact& contact, int owner);
+  void add_limit(const Reduction& by, const Contact& contact, ReducedContact limit);
+  void add_places(const ReducedContact& contact, const PartSpeeds& speeds);
   void add_film(const Reduction& by, const OilFilm& film);
   /// How far the loads move a rotor without contacts and films [m], or a millimeter if they do not.
   double size_of_motion(const Reduction& by) const;

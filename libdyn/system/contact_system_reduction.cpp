@@ -10,6 +10,7 @@
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/load_periods.hpp"
 #include "libfe/assembly/excitations.hpp"
+#include "libfe/assembly/support_equations.hpp"
 
 namespace whirl::inline dyn {
 
@@ -139,6 +140,7 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
                    .law = law_at(speeds.at, c.law, c.friction),
                    .geometry = geometry,
                    .owner = owner};
+  if (c.limits) return add_limit(by, c, std::move(r));
   r.U = closing_rows(c, by.assembler, by.reduced.dofs) * by.reduced.Phi;
   r.B = by.mass.solve(r.U.transpose());
   if (whirl::rubs_apart(geometry)) {
@@ -147,11 +149,31 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
           by.reduced.Phi;
     r.B_t = by.mass.solve(r.V.transpose());
   }
-  for (int i = 0; i < places_of(geometry); ++i) {
-    r.geometry = place_of(geometry, i, speeds);
-    r.place = i;
-    contacts_.push_back(r);
+  add_places(r, speeds);
+}
+
+void ContactSystem::add_places(const ReducedContact& contact, const PartSpeeds& speeds) {
+  for (int i = 0; i < places_of(contact.geometry); ++i) {
+    ReducedContact& one = contacts_.emplace_back(contact);
+    one.geometry = place_of(contact.geometry, i, speeds);
+    one.place = i;
   }
+}
+
+/// The signal is told in lengths, clearance : limit; so is its rate, which makes no friction.
+void ContactSystem::add_limit(const Reduction& by, const Contact& contact, ReducedContact limit) {
+  const Structure& structure = by.assembler.structure();
+  const auto& [support, number] = *contact.limits;
+  const SignalLimit& of = structure.supports[support].limits[number];
+  const LimitedSignal signal =
+      limited_signal(structure, by.assembler.mesh(), by.assembler.dofs(), support, number);
+  const double length = contact.clearance / of.limit;  // per unit of the signal
+  limit.U = limit.V = PlaneRows::Zero(2, coordinates());
+  limit.U.row(0) = length * (signal.displacement.transpose() * by.back);
+  limit.V.row(0) = length * (signal.rate.transpose() * by.back);
+  limit.B = limit.B_t = PlaneColumns::Zero(coordinates(), 2);
+  limit.B.col(0) = -by.load(signal.force) / of.force;
+  add_places(limit, {});
 }
 
 void ContactSystem::add_film(const Reduction& by, const OilFilm& film) {
@@ -182,10 +204,13 @@ double ContactSystem::size_of_motion(const Reduction& by) const {
 }
 
 void ContactSystem::find_scales(const Reduction& by) {
-  const bool is_free = contacts_.empty() && films_.empty();
-  length_scale_ = is_free ? size_of_motion(by) : std::numeric_limits<double>::infinity();
-  for (const ReducedContact& c : contacts_) length_scale_ = std::min(length_scale_, c.clearance);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  length_scale_ = none;
+  for (const ReducedContact& c : contacts_) {
+    if (!c.is_limit()) length_scale_ = std::min(length_scale_, c.clearance);
+  }
   for (const ReducedFilm& film : films_) length_scale_ = std::min(length_scale_, film.clearance);
+  if (length_scale_ == none) length_scale_ = size_of_motion(by);
   scale_.resize(size());
   for (int i = 0; i < coordinates(); ++i) {
     double largest = 0.0;
@@ -196,8 +221,9 @@ void ContactSystem::find_scales(const Reduction& by) {
       }
     }
     for (const ReducedContact& c : contacts_) {
-      if (closing_of(c.geometry) == Closing::lateral) continue;
-      largest = std::max(largest, c.U.col(i).cwiseAbs().maxCoeff());
+      const double part = c.is_limit() ? length_scale_ / c.clearance : 1.0;
+      if (closing_of(c.geometry) == Closing::lateral && !c.is_limit()) continue;
+      largest = std::max(largest, part * c.U.col(i).cwiseAbs().maxCoeff());
     }
     scale_(i) = largest > 0.0 ? length_scale_ / largest : length_scale_;
     scale_(layout().place_of_rate(i)) = scale_(i) * phase_rate();

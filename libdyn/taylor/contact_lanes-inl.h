@@ -37,7 +37,7 @@ inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
 /// Of a plane d is its normal, r is one, and s, else the square of the distance, is how far the
 /// rotor is beyond it. Of a wall d is the slope of the depth, r is one, and s is beyond zero where
 /// the rotor is beyond the wall. Of a rolling element d is its direction, which turns, r is one,
-/// and s is how far it is pressed.
+/// and s is how far it is pressed. A limit of a signal is a plane whose s knows rates, too.
 template <class P>
 struct ContactLanes {
   using Number = typename P::Number;
@@ -74,6 +74,7 @@ struct ContactLanes {
   bool any_has_tau = false;              // whether in any lane tau is more than a share of q
   bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
   bool slip_is_known = false;            // whether `slip` is a series that was watched
+  int last_term = 0;                     // of the coordinates
   typename P::Mask evaluated, in_touch;  // lanes that need the force, lanes that feel it
   typename P::Mask has_tau;              // lanes that slide smoothly or stick
   P inverse_r{1.0}, share{0.0};
@@ -148,7 +149,9 @@ struct ContactLanes {
   }
 
   /// Prepares for a step of the lanes that are active.
-  HWY_ATTR void begin(uint64_t active) {
+  /// @param last  the last coefficient of coordinates that there is
+  HWY_ATTR void begin(uint64_t active, int last) {
+    last_term = last;
     const uint64_t needed = (touching | receding) & active;
     is_evaluated = needed != 0;
     slip_is_known = false;
@@ -227,6 +230,12 @@ struct ContactLanes {
     displacement(x, xk, yk);
     s[k] = fma(dx[0], xk, dy[0] * yk);
     if (k == 0) s[0] = s[0] - plane_at;
+    if (rows.is_limit && k < last_term) add_rates(x + rows.coordinates, k);
+  }
+  /// Adds coefficient k of the rates that a limit reads, from coefficient k + 1 of the coordinates.
+  HWY_NOINLINE HWY_ATTR void add_rates(const P* next, int k) {
+    rub->velocity(next, k);
+    s[k] = fma(dx[0], rub->wx[k], fma(dy[0], rub->wy[k], s[k]));
   }
 
   /// The same of a wall, for any k. Out of line: inside the loop that has this call its tapes make

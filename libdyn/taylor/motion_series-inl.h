@@ -41,7 +41,7 @@ HWY_ATTR void MotionSeries<P>::find() {
   laws_.clear();
   sticking_.find_leaders();
   for (ContactLanes<P>& c : m_.contacts) {
-    c.begin(m_.active);
+    c.begin(m_.active, m_.N + 2);
     if (c.disk && !c.is_evaluated) {  // most of many blades: nothing is built for their force
       laws_.emplace_back(std::in_place_type<LawWork<P, Radial<P>>>, Radial<P>{});
       continue;

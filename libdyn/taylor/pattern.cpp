@@ -110,12 +110,14 @@ Pattern begin_pattern(const ContactSystem& first) {
   p.contacts.resize(first.contacts().size());
   for (std::size_t c = 0; c < p.contacts.size(); ++c) {
     const ReducedContact& contact = first.contacts()[c];
+    p.contacts[c].coordinates = p.n;
     p.contacts[c].law = contact.law.index();
     p.contacts[c].is_analytic = is_analytic(contact.law);
     p.contacts[c].geometry = contact.geometry;
     p.contacts[c].rubs_apart = contact.rubs_apart();
     p.contacts[c].is_plane = direction_of(contact.geometry).has_value();
     p.contacts[c].is_wall = is_wall(contact.geometry);
+    p.contacts[c].is_limit = contact.is_limit();
     p.contacts[c].is_rolling = rolling_elements(contact.geometry) != nullptr;
     if (!contact.turns()) continue;
     static_assert(

@@ -24,6 +24,7 @@ struct Pattern {
     }
   };
   struct ContactRows {
+    int coordinates = 0;                        ///< of the system
     std::vector<int> of_x, of_y;                ///< coordinates that move the contact in x, in y
     std::vector<int> pushed_by_x, pushed_by_y;  ///< coordinates that its force accelerates
     /// Where friction acts elsewhere: coordinates whose rates are in the slip, that it accelerates.
@@ -32,6 +33,7 @@ struct Pattern {
     bool is_plane = false;    ///< it is met in one direction, which does not change
     bool is_wall = false;     ///< it is met on a curve that is no circle
     bool is_rolling = false;  ///< it is an element of a rolling bearing
+    bool is_limit = false;    ///< of a signal: a plane that `slips` close, too
     int group = -1;           ///< of places that turn, in turning
     bool has_rate = false;    ///< the law depends on the rate of the depth
     bool has_friction = false;

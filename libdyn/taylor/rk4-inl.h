@@ -283,6 +283,12 @@ class Rk4Lanes {
   HWY_ATTR void push(const ContactLanes<P>& c, const P* y, P* a) const {
     PlaceOfContact<P> at;
     c.displacement(y, at.dx, at.dy);
+    if (c.rows.is_limit) {
+      P wx, wy;
+      c.rub->lateral(layout().rates_at(y), wx, wy);
+      at.dx = at.dx + wx;
+      at.dy = at.dy + wy;
+    }
     if (!at.find(c)) return;
     P vx, vy;
     c.displacement(layout().rates_at(y), vx, vy);

@@ -52,6 +52,15 @@ class Variation {
   __attribute__((flatten)) HWY_ATTR void move_columns(P* columns, bool any_sticks, const P& h);
   template <int Bodies>
   HWY_ATTR inline void accelerate_columns(int k, const P* forces, P* to_a, P* to_b);
+  /// Adds what a limit reads of the rates to coefficient k of a column.
+  HWY_ATTR static void add_rates(const ContactLanes<P>& c, const P* next, int k,
+                                 typename Tangents<P>::Column& to) {
+    P wx, wy;
+    c.rub->lateral(next, wx, wy);
+    const P whole(k + 1.0);
+    to.dx[k] = fma(whole, wx, to.dx[k]);
+    to.dy[k] = fma(whole, wy, to.dy[k]);
+  }
   // variation_films-inl.h
   HWY_ATTR void find_film_slopes(const P& h, P& square, P& longest);
   HWY_ATTR P film_divergence(const P& h);
@@ -207,7 +216,7 @@ HWY_ATTR void Variation<P>::add_divergence(const P& h) {
   t.divergence = t.divergence + select(active, t.trace * h, P(0.0));
   for (size_t i = 0; i < m_.contacts.size(); ++i) {
     const ContactLanes<P>& c = m_.contacts[i];
-    if ((c.touching & m_.active) != 0 && t.slopes[i].has_H) {
+    if ((c.touching & m_.active) != 0 && (t.slopes[i].has_H || c.rows.is_limit)) {
       t.divergence =
           t.divergence + select(both(active, c.in_touch), contact_divergence(i, h), P(0.0));
     }
@@ -217,16 +226,17 @@ HWY_ATTR void Variation<P>::add_divergence(const P& h) {
   }
 }
 
-/// Integral of -trace(H U B) over the step.
+/// Integral of -trace(H U B) over the step; of a limit, whose force follows rates as it follows
+/// displacements, of -trace(J V B).
 template <class P>
 HWY_ATTR P Variation<P>::contact_divergence(size_t i, const P& h) {
   const ContactLanes<P>& c = m_.contacts[i];
-  const SeriesMatrix<P>& H = tangents_.slopes[i].H;
+  const SeriesMatrix<P>& H = c.rows.is_limit ? tangents_.slopes[i].J : tangents_.slopes[i].H;
   P xx(0.0), xy(0.0), yx(0.0), yy(0.0);  // of U B, or V B_t
   const auto effect = [&](const P& fx, const P& fy, P& to_x, P& to_y) HWY_ATTR {
     work_.assign(static_cast<size_t>(m_.n), P(0.0));
     if (c.rub) {
-      c.rub->push(work_.data(), fx, fy);
+      c.rows.is_limit ? c.push(work_.data(), fx, fy) : c.rub->push(work_.data(), fx, fy);
       c.rub->lateral(work_.data(), to_x, to_y);
     } else {
       c.push(work_.data(), fx, fy);
@@ -268,6 +278,10 @@ HWY_ATTR void Variation<P>::move_columns(P* columns, bool any_sticks, const P& h
       auto &u = first.contacts[i], &w = second.contacts[i];
       c.template displacement<Bodies>(now, u.dx[k], u.dy[k]);
       c.template displacement<Bodies>(other, w.dx[k], w.dy[k]);
+      if (Bodies == 0 && c.rows.is_limit) {
+        add_rates(c, now + n, k, u);
+        add_rates(c, other + n, k, w);
+      }
       P* of_contact = forces + 4 * i;
       add_slope_forces(slopes.J, u.dx, u.dy, w.dx, w.dy, k, of_contact);
       if (Bodies == 0 && slopes.has_H) {

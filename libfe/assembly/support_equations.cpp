@@ -171,4 +171,54 @@ std::vector<SupportForce> support_forces(const Structure& structure, const Mesh&
   return forces;
 }
 
+namespace {
+
+/// Numbers of ports and states over the full vector.
+Vec over_full(const Vec& ports, const Vec& states, const Interface& at, const DofMap& dofs) {
+  Vec row = Vec::Zero(dofs.full_size);
+  for (Eigen::Index k = 0; k < std::ssize(at.index); ++k) {
+    row(at.index[static_cast<std::size_t>(k)]) +=
+        k < ports.size() ? ports(k) : states(k - ports.size());
+  }
+  return row;
+}
+
+}  // namespace
+
+LimitedSignal limited_signal(const Structure& structure, const Mesh& mesh, const DofMap& dofs,
+                             std::size_t support, std::size_t limit) {
+  LimitedSignal signal;
+  std::size_t number = 0;
+  for_each_support(
+      structure, mesh, dofs, [&](const Support& of, const StateCoordinates&, const Interface& at) {
+        if (number++ != support) return;
+        const SignalLimit& l = of.limits[limit];
+        signal.displacement = over_full(at.sees.transpose() * l.over_displacements,
+                                        following_rate(of.law) * l.over_states, at, dofs);
+        signal.rate = over_full(at.sees.transpose() * l.over_rates, l.over_states, at, dofs);
+        signal.force = over_full(at.acts_on.transpose() * l.to_forces, -l.to_states, at, dofs);
+      });
+  return signal;
+}
+
+SensorRows sensor_rows(const Structure& structure, const Mesh& mesh, const DofMap& dofs,
+                       std::size_t support, int sensor) {
+  SensorRows rows;
+  std::size_t number = 0;
+  for_each_support(
+      structure, mesh, dofs,
+      [&](const Support& of, const StateCoordinates& c, const Interface& at) {
+        if (number++ != support) return;
+        const Vec none = Vec::Zero(c.size());
+        const Mat to_force = at.acts_on.transpose();
+        rows.sees = over_full(at.sees.row(sensor).transpose(), none, at, dofs);
+        rows.acts_on = over_full(to_force.col(sensor), none, at, dofs);
+        rows.stiffness = over_full(to_force * c.D.col(sensor), -c.B_0.col(sensor), at, dofs);
+        const Vec by_rate = of.law.D_rate.size() > 0 ? Vec(to_force * of.law.D_rate.col(sensor))
+                                                     : Vec(Vec::Zero(to_force.rows()));
+        rows.damping = over_full(by_rate, -c.B_1.col(sensor), at, dofs);
+      });
+  return rows;
+}
+
 }  // namespace whirl::inline fe

@@ -37,4 +37,25 @@ struct SupportForce {
 std::vector<SupportForce> support_forces(const Structure& structure, const Mesh& mesh,
                                          const DofMap& dofs);
 
+/// A signal that saturates, over the full vector q: p = displacement . q + rate . q', and the
+/// forces that what it has beyond its limit adds, per unit of it.
+struct LimitedSignal {
+  Vec displacement, rate, force;
+};
+
+/// A limit of a support, by their numbers.
+LimitedSignal limited_signal(const Structure& structure, const Mesh& mesh, const DofMap& dofs,
+                             std::size_t support, std::size_t limit);
+
+/// Rows over the full vector that belong to a sensor of a support, and the force that it would see
+/// as a displacement: stiffness r + damping r' of a displacement r.
+struct SensorRows {
+  Vec sees, acts_on;  ///< of the sensor, and of the force of the same number
+  Vec stiffness, damping;
+};
+
+/// Those of a sensor of a support, by their numbers.
+SensorRows sensor_rows(const Structure& structure, const Mesh& mesh, const DofMap& dofs,
+                       std::size_t support, int sensor);
+
 }  // namespace whirl::inline fe

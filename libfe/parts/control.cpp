@@ -96,6 +96,60 @@ StateSpace in_series(const StateSpace& first, const StateSpace& second) {
   return law;
 }
 
+LimitedCurrents limited_currents(const StateSpace& control, double bandwidth,
+                                 const AmplifierLimits& limits) {
+  const Eigen::Index n = control.states(), m = control.outputs(), p = control.inputs();
+  const double w = bandwidth;
+  const bool has_amplifier = w > 0.0;
+  if (has_amplifier && control.D_rate.size() > 0) {
+    throw NumericalError(
+        "an amplifier with a bandwidth and a limit needs a derivative that ends: give "
+        "derivative_bandwidth");
+  }
+  const Eigen::Index all = has_amplifier ? n + m : n;
+  LimitedCurrents made;
+  StateSpace& law = made.law;
+  law = control;
+  if (has_amplifier) {
+    law.A = Mat::Zero(all, all);
+    law.A.topLeftCorner(n, n) = control.A;
+    law.A.bottomLeftCorner(m, n) = w * control.C;
+    law.A.bottomRightCorner(m, m) = -w * Mat::Identity(m, m);
+    law.B = Mat(all, p);
+    law.B << control.B, w * control.D;
+    law.C = Mat::Zero(m, all);
+    law.C.rightCols(m).setIdentity();
+    law.D = Mat::Zero(m, p);
+  }
+  const double L = limits.inductance, R = limits.resistance;
+  const auto add = [&](const char* signal, Eigen::Index axis, double limit, double of_y,
+                       double of_i, double to_i) {
+    SignalLimit& one = made.limits.emplace_back();
+    one.name = std::string(signal) + " of axis " + std::to_string(axis + 1);
+    one.limit = limit;
+    one.over_states = one.to_states = Vec::Zero(all);
+    one.over_states.head(n) = of_y * control.C.row(axis).transpose();
+    if (has_amplifier) one.over_states(n + axis) = of_i;
+    one.over_displacements = of_y * control.D.row(axis).transpose();
+    one.over_rates = control.D_rate.size() > 0 ? Vec(of_y * control.D_rate.row(axis).transpose())
+                                               : Vec(Vec::Zero(p));
+    one.to_forces = Vec::Zero(m);
+    if (has_amplifier) {
+      one.to_states(n + axis) = to_i;
+    } else {
+      one.to_forces(axis) = 1.0;
+    }
+    one.force = 1.0 / of_y;  // y that makes so much of the signal
+  };
+  for (Eigen::Index axis = 0; axis < m; ++axis) {
+    if (limits.current_limit > 0.0) add("current", axis, limits.current_limit, 1.0, 0.0, w);
+    if (limits.voltage_limit > 0.0) {
+      add("voltage", axis, limits.voltage_limit, L * w, R - L * w, 1.0 / L);
+    }
+  }
+  return made;
+}
+
 StateSpace chain(const std::vector<TransferFunction>& functions) {
   std::vector<TransferFunction> left = functions;
   const auto grows = [](const TransferFunction& f) { return growth_of(f) > 0; };

@@ -51,6 +51,33 @@ struct LoopDynamics {
   }
 };
 
+/// What an amplifier cannot exceed.
+///
+/// A current that is limited is that which the controller asks for. A voltage drives the coil
+/// L i' + R i = v; with the bandwidth w of the current loop, v = L w (y - i) + R i where the
+/// controller asks for y.
+struct AmplifierLimits {
+  double current_limit = 0.0;  ///< [A]; 0: none
+  double voltage_limit = 0.0;  ///< [V]; 0: none
+  double inductance = 0.0;     ///< L [H]
+  double resistance = 0.0;     ///< R [ohm]
+
+  bool any() const { return current_limit > 0.0 || voltage_limit > 0.0; }
+
+  static constexpr auto fields() {
+    using enum Range;
+    using A = AmplifierLimits;
+    return std::tuple{alternative("current_limit", &A::current_limit, "A", positive,
+                                  "largest control current, of an axis; left out: none"),
+                      alternative("voltage_limit", &A::voltage_limit, "V", positive,
+                                  "largest voltage of an amplifier; left out: none"),
+                      alternative("inductance", &A::inductance, "H", positive,
+                                  "of the coil of an axis, under voltage_limit"),
+                      optional("resistance", &A::resistance, "ohm", nonnegative,
+                               "of the coil of an axis, under voltage_limit")};
+  }
+};
+
 enum class FilterKind { low_pass, notch };
 constexpr auto choices(FilterKind) {
   return std::array{Choice<FilterKind>{"low-pass", FilterKind::low_pass},
@@ -91,6 +118,19 @@ std::vector<TransferFunction> transfer_functions(const LoopDynamics& loop);
 /// has no states.
 /// @throws NumericalError  where rates would be needed that are not there
 StateSpace in_series(const StateSpace& first, const StateSpace& second);
+
+/// Currents of axes, and which signals saturate on the way.
+struct LimitedCurrents {
+  StateSpace law;  ///< from displacements to currents [A/m]
+  std::vector<SignalLimit> limits;
+};
+
+/// The currents i of amplifiers of first order, i' = w (y - i), that a controller asks for y; with
+/// limits. Forces of what is beyond a limit are told in amperes.
+/// @param bandwidth  w [rad/s]; 0: i = y
+/// @throws NumericalError  where an amplifier would need a rate of the displacement
+LimitedCurrents limited_currents(const StateSpace& control, double bandwidth,
+                                 const AmplifierLimits& limits);
 
 /// A law of one displacement and what stands behind it, one after the other. Factors that grow with
 /// the frequency are taken together with others until none is left that does.

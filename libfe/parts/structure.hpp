@@ -250,6 +250,7 @@ struct Force {
   double order = 0.0;      ///< of the speed; 0: it does not follow it
   double frequency = 0.0;  ///< of its own [rad/s]; 0, and no order: constant
   double phase = 0.0;      ///< [rad]
+  Beginning begins{};      ///< of simulated motions; all other analyses have it all the time
 
   bool has_station() const { return kind != ForceKind::base_acceleration; }
   bool is_constant() const { return order == 0.0 && frequency == 0.0; }

@@ -56,6 +56,14 @@ bool StateCoordinates::operator==(const StateCoordinates& other) const {
          is_same(D, other.D) && idle == other.idle;
 }
 
+bool SignalLimit::operator==(const SignalLimit& other) const {
+  return name == other.name && limit == other.limit && force == other.force &&
+         is_same(over_states, other.over_states) &&
+         is_same(over_displacements, other.over_displacements) &&
+         is_same(over_rates, other.over_rates) && is_same(to_states, other.to_states) &&
+         is_same(to_forces, other.to_forces);
+}
+
 std::vector<const Station*> places_of(const Support& support) {
   std::vector<const Station*> places;
   for (const auto* coordinates : {&support.acts_on, &support.sees}) {

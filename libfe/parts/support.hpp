@@ -73,6 +73,23 @@ struct LawFit {
   bool operator==(const LawFit&) const = default;
 };
 
+/// A signal of a law that saturates: what it has beyond +-limit has no effect.
+///
+///   p = over_states z + over_displacements u + over_rates u'
+///   e = what p has beyond its limit,   z' = ... - to_states e,   f = ... - to_forces e
+struct SignalLimit {
+  std::string name;        ///< "current of axis 1"
+  double limit = 0.0;      ///< of |p|, in its unit
+  Vec over_states;         ///< n
+  Vec over_displacements;  ///< p
+  Vec over_rates;          ///< p
+  Vec to_states;           ///< n
+  Vec to_forces;           ///< m
+  double force = 1.0;      ///< that e would make at rest, by which it is told [N per its unit]
+
+  bool operator==(const SignalLimit& other) const;
+};
+
 /// A support between stations, bodies or the ground. Its force needs no displacement of the same
 /// place: a controller reads the motion at its sensors, and acts elsewhere.
 struct Support {
@@ -85,6 +102,7 @@ struct Support {
   /// Of a magnetic bearing: so many of the displacements, the first ones, are signals of sensors.
   int sensors = 0;
   std::optional<LawFit> fit{};  ///< nothing: the law is given
+  std::vector<SignalLimit> limits{};
   Where where{};
   bool operator==(const Support&) const = default;
 };

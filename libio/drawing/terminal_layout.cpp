@@ -37,6 +37,7 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
   for (const Connection& b : model.structure.bearings) all.push_back({place(b.from), "▲", b.name});
   for (const Connection& s : model.structure.seals) all.push_back({place(s.from), "≋", s.name});
   for (const Contact& c : model.contacts) {
+    if (c.limits) continue;  // supports are marked
     all.push_back({place(c.at), is_rolling_bearing(c) ? "▲" : "◯", c.name});
   }
   for (const OilFilm& f : model.films) all.push_back({place(f.at), "▲", f.name});

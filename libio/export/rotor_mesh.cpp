@@ -69,7 +69,7 @@ std::vector<MeshArray> arrays_of_nodes(const Model& model, const Assembler& asse
       numbers_at_nodes(
           "contact", model.contacts,
           [](const Contact& c) {
-            return std::vector{c.at, c.against};
+            return c.limits ? std::vector<Station>{} : std::vector{c.at, c.against};
           },
           assembler)};
   if (!s.seals.empty()) {

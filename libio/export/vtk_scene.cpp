@@ -50,8 +50,9 @@ double contact_radius(const Model& model, const Assembler& assembler, const Cont
 /// which a contact touches it, or a symbol.
 void add_bodies(const Model& model, const Assembler& assembler, VtkScene& scene) {
   double typical = 0.0;  // radius of bodies that no contact touches
-  for (const Contact& c : model.contacts)
-    typical = std::max(typical, contact_radius(model, assembler, c));
+  for (const Contact& c : model.contacts) {
+    if (!c.limits) typical = std::max(typical, contact_radius(model, assembler, c));
+  }
   if (!(typical > 0.0)) typical = 0.1;
   const double length = model.structure.length();
   for (std::size_t i = 0; i < model.structure.bodies.size(); ++i) {
@@ -170,6 +171,7 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
   }
   add_bodies(model, assembler, scene);
   for (const Contact& c : model.contacts) {
+    if (c.limits) continue;
     const Point at = assembler.point(c.at), against = assembler.point(c.against);
     scene.stators.push_back(
         {c.name, against.kind == Point::Kind::body ? index_of(against, assembler) : -1,
@@ -218,6 +220,7 @@ VtkFrame vtk_frame(const Model& model, const Assembler& assembler, double time, 
   }
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const Contact& c = model.contacts[i];
+    if (c.limits) continue;  // the last ones
     const Point at = assembler.point(c.at), against = assembler.point(c.against);
     Vec2 d = -c.offset;
     for (const int k : {X, Y}) {

@@ -222,7 +222,7 @@ int contact_at(const ResultView& result, const std::string& station) {
   if (!result.model || !result.assembler) return -1;
   const auto& contacts = result.model->contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (is_at(result, contacts[i].at, station)) return static_cast<int>(i);
+    if (!contacts[i].limits && is_at(result, contacts[i].at, station)) return static_cast<int>(i);
   }
   return -1;
 }

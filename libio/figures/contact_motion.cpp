@@ -70,6 +70,7 @@ std::vector<Figure> contact_motion_figures(const ResultView& result) {
   const std::vector<Contact>& contacts = result.model->contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
+    if (c.limits) continue;               // no place
     if (turns(geometry_of(c))) continue;  // blades: another one is nearest at every moment
     const Vec distance = distance_to_middle(result, m.record, c);
     const auto begins = touches(m.record.normal, static_cast<Eigen::Index>(i), shown);

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "libdyn/system/support_limits.hpp"
 #include "libio/model/model_checks.hpp"
 #include "libio/model/model_table.hpp"
 #include "libio/text/workbook.hpp"
@@ -69,6 +70,7 @@ Model ModelBuilder::build() {
   const std::vector<Problem> absent = doubts_of(reading_.named_places);
   reading_.doubts.insert(reading_.doubts.end(), absent.begin(), absent.end());
   throw_problems(reading_);
+  add_limits(reading_.model);
   return std::move(reading_.model);
 }
 
@@ -91,6 +93,7 @@ Model ModelBuilder::rebuild(const Model& base) {
     model.contacts[missing.contact].friction.radius =
         base.contacts[missing.contact].friction.radius;
   }
+  add_limits(model);
   return std::move(model);
 }
 

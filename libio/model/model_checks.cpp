@@ -77,6 +77,7 @@ void check_rotors(ModelReading& reading, const Mesh& mesh) {
   const Structure& s = reading.model.structure;
   if (s.rotors.empty()) return;
   for (const Contact& c : reading.model.contacts) {
+    if (c.limits) continue;
     const double leading = reading.model.speed > 0.0 ? reading.model.speed : 1.0;
     const double at = shaft_speed(resolve(c.at, s, mesh), s, mesh, leading) / leading;
     const double against = spin_speed(resolve(c.against, s, mesh), s, mesh, leading) / leading;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
 #include <utility>
 
 #include "libio/text/units.hpp"
@@ -126,6 +127,22 @@ void need_tilts(const ModelReading& reading, TableReader& table, const char* key
                 const Station& at) {
   const Body* body = reading.body_at(at);
   if (body && !body->tilts) table.problem(key, "this body does not tilt; give it tilts = true");
+}
+
+Beginning read_beginning(TableReader& table) {
+  const auto text = table.string("begins");
+  if (!text) return {};
+  const auto quantity = parse_quantity(*text);
+  const bool is_time = quantity && quantity->dimension == dimension_of("s");
+  const bool is_turn = quantity && quantity->dimension == dimension_of("rad");
+  if (!(is_time || is_turn) || !(quantity->value > 0.0)) {
+    table.problem("begins", fmt::format("found {}, expected a time or revolutions after the start "
+                                        "of the recording, such as \"0.5 s\" or \"20 rev\"",
+                                        in_quotes(*text)));
+    return {};
+  }
+  if (is_time) return {.time = quantity->value};
+  return {.revolutions = quantity->value / (2.0 * std::numbers::pi)};
 }
 
 }  // namespace whirl::inline io

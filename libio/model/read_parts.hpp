@@ -36,4 +36,7 @@ Vec2 read_center(TableReader& table);
 void need_tilts(const ModelReading& reading, TableReader& table, const char* key,
                 const Station& at);
 
+/// When a load begins: a time, or revolutions.
+Beginning read_beginning(TableReader& table);
+
 }  // namespace whirl::inline io

@@ -79,6 +79,8 @@ constexpr Unit units[] = {
     {"K", 1, 0, dim(0, 0, 0, 0, 1), ""},
     {"A", 1, 0, dim(0, 0, 0, 0, 0, 1), "um"},
     {"V", 1, 0, dim(1, 2, -3, 0, 0, -1), "um"},
+    {"H", 1, 0, dim(1, 2, -2, 0, 0, -2), "um"},
+    {"ohm", 1, 0, dim(1, 2, -3, 0, 0, -2), "mkM"},
 };
 
 std::optional<Unit> find_unit(std::string_view symbol) {
@@ -369,6 +371,9 @@ std::string_view quantity_name(const Dimension& dimension) {
       {dimension_of("A.s/m"), "current per velocity"},
       {dimension_of("A/m/s"), "current per displacement and time"},
       {dimension_of("N/A"), "force per current"},
+      {dimension_of("V"), "voltage"},
+      {dimension_of("H"), "inductance"},
+      {dimension_of("ohm"), "resistance"},
   };
   for (const Name& entry : names) {
     if (entry.dimension == dimension) return entry.name;

@@ -81,7 +81,7 @@ Notes motion_notes(const Model& model, const Scene& scene, const Recording& reco
       largest_distances(model, scene.assembler, scene.displacement_map(), recording.eta);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const RunningClearance& gap = distances[i];
-    if (i < model.contacts.size()) {
+    if (i < stator_contacts(model.contacts).size()) {
       note_depth(notes, "", gap.name, -gap.left(), gap.clearance);
     } else if (gap.left() < 0.0) {
       notes.push_back(fmt::format(
@@ -154,6 +154,7 @@ Notes touch_notes(const HardestTouches& hardest, const std::function<Model(std::
     if (touch.normal > 0.0) {
       const Model model = model_of(touch.pressed);
       const Contact& contact = model.contacts[i];
+      if (contact.limits) continue;
       note_depth(notes, place_of(touch.pressed), named("contact", contact.name),
                  depth_under(contact.law, touch.normal), contact.clearance);
     }

@@ -6,6 +6,9 @@
 
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
 
 #include "libbase/numerics/dual.hpp"
 
@@ -61,18 +64,40 @@ ContactGap<double> gap_of(const G& g, double at, const Motion& m) {
   return g.gap(space, at, GapMotion<double>{{m.d(0), m.d(1)}, {m.w(0), m.w(1)}, {m.v(0), m.v(1)}});
 }
 
+/// Limits of signals are no places: their depth follows from rates, too.
+template <class G>
+using IfPlace =
+    std::conditional_t<std::is_same_v<G, geometry::Saturation>, std::tuple<>, std::tuple<G>>;
+template <class Tuple>
+struct TypesOf;
+template <class... Geometries>
+struct TypesOf<std::tuple<Geometries...>> {
+  using Types = ::testing::Types<Geometries...>;
+};
 template <class Variant>
 struct Every;
 template <class... Geometries>
-struct Every<std::variant<Geometries...>> {
-  using Types = ::testing::Types<Geometries...>;
-};
+struct Every<std::variant<Geometries...>>
+    : TypesOf<decltype(std::tuple_cat(std::declval<IfPlace<Geometries>>()...))> {};
 template <class G>
 struct EveryGeometry : ::testing::Test {
   const G geometry = sample(G{});
   const Motion motion = motion_of(geometry);
 };
 TYPED_TEST_SUITE(EveryGeometry, Every<AnyGeometry>::Types);
+
+// A signal is compared with both of its limits.
+TEST(Saturation, IsBeyondOneOfItsLimits) {
+  const Motion m{Vec2(0.7e-3, 9.0), Vec2(9.0, 9.0), Vec2(-2.5e-3, 9.0)};
+  const ContactSpace limit{.clearance = 1e-3};
+  const auto at = [&](int place) {
+    return geometry::Saturation().place(place, {}).gap(
+        limit, phase, GapMotion<double>{{m.d(0), m.d(1)}, {m.w(0), m.w(1)}, {m.v(0), m.v(1)}});
+  };
+  EXPECT_DOUBLE_EQ(at(0).depth, -1.8e-3 - 1e-3);
+  EXPECT_DOUBLE_EQ(at(1).depth, 1.8e-3 - 1e-3);
+  EXPECT_EQ(at(1).n[0], -1.0);
+}
 
 // A place that turns moves with the phase, too.
 TYPED_TEST(EveryGeometry, SaysTheRateOfItsDepth) {

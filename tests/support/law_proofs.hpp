@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -93,8 +94,8 @@ inline void expect_same_alone(const std::vector<Scene>& scenes,
 }
 
 /// The tangent of a stretch is that of central differences, to a share of its columns (or of 1).
-inline void expect_tangent_of_differences(const Stretch& s, double accuracy) {
-  constexpr double h = 1e-7;  // of a scale
+/// @param h  of a scale
+inline void expect_tangent_of_differences(const Stretch& s, double accuracy, double h = 1e-7) {
   const Trajectory t = end_of(s, s.start, {.tolerance = 1e-13, .tangent = true});
   EXPECT_GE(t.cost.events, s.least_events);
   const Vec& scale = s.scene.contacts.state_scale();

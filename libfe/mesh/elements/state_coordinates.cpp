@@ -146,8 +146,30 @@ StateCoordinates state_coordinates(const StateSpace& law) {
   return c;
 }
 
+double following_rate(const StateSpace& law) {
+  if (law.states() == 0) return 1.0;
+  const double fastest = eigenvalues(law.A).cwiseAbs().maxCoeff();
+  return fastest > 0.0 ? 2.0 * fastest : 1.0;
+}
+
+StateCoordinates followed_states(const StateSpace& law) {
+  const Eigen::Index n = law.states();
+  const double alpha = following_rate(law);
+  StateCoordinates c;
+  c.C_w = alpha * Mat::Identity(n, n) - law.A;
+  c.K_w = -alpha * law.A;
+  c.B_0 = law.B;
+  c.B_1 = Mat::Zero(n, law.inputs());
+  c.C_0 = alpha * law.C;
+  c.C_1 = law.C;
+  c.D = law.D;
+  c.idle.assign(static_cast<std::size_t>(n), -alpha);
+  return c;
+}
+
 StateCoordinates state_coordinates(const Support& support) {
-  return support.coordinates ? *support.coordinates : state_coordinates(support.law);
+  if (support.coordinates) return *support.coordinates;
+  return support.limits.empty() ? state_coordinates(support.law) : followed_states(support.law);
 }
 
 }  // namespace whirl::inline fe

@@ -15,7 +15,15 @@ namespace whirl::inline fe {
 /// @throws NumericalError  if the Schur form cannot be computed, or does not tell the states apart
 StateCoordinates state_coordinates(const StateSpace& law);
 
-/// Those of a support: what it is given, else its states paired.
+/// States as z = w' + alpha w, one coordinate each, with the eigenvalue -alpha that shows in
+/// nothing: what moves a state accelerates its coordinate, so that its rate may jump.
+///
+///   w'' = A (w' + alpha w) + B u - alpha w'
+StateCoordinates followed_states(const StateSpace& law);
+/// alpha of these [rad/s].
+double following_rate(const StateSpace& law);
+
+/// Those of a support: what it is given, else its states paired; followed where signals saturate.
 StateCoordinates state_coordinates(const Support& support);
 
 }  // namespace whirl::inline fe

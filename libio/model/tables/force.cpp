@@ -73,6 +73,7 @@ void read_forces(ModelReading& reading) {
   reading.for_each("force", [&](TableReader& table, std::size_t i) {
     Force force{.name = table.string("name").value_or(fmt::format("force {}", i + 1))};
     const bool has_size = read_force_size(table, force);
+    force.begins = read_beginning(table);
     read_force_frequency(table, force);
     const bool is_of_base = table.has("base_acceleration");
     std::optional<Station> at;
@@ -105,6 +106,9 @@ ModelTable force_table() {
           .notes = {{"force", "its size"},
                     {"moment", "its size, of a moment about an axis across the shaft"},
                     {"base_acceleration", "of the ground; motions are relative to it"},
+                    {"begins",
+                     "time or revolutions after the start of the recording of a simulation, "
+                     "\"0.5 s\" or \"20 rev\"; left out: it is always there"},
                     {"order", "its frequency over that of the speed"},
                     {"frequency", "of its own, as of a shaker; neither this nor order: constant"},
                     {"angle", "direction of force, axis or acceleration, from +x", "0"},

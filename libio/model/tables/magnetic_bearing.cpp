@@ -45,14 +45,43 @@ std::vector<TransferFunction> read_filters(ModelReading& reading, TableReader& t
   return filters;
 }
 
-/// The law from displacements of the sensors to currents [A/m], of one axis or of both; nothing: it
-/// is wrong, which is reported.
-std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table,
-                                       std::size_t item) {
+/// What is read of the way from sensors to currents.
+struct ControlLoop {
+  StateSpace control;  ///< to currents, of one axis or of both; without the amplifier where limited
+  double amplifier = 0.0;  ///< its bandwidth, where it is apart [rad/s]
+  AmplifierLimits limits;
+};
+
+void check_limits(TableReader& table, const AmplifierLimits& limits, const LoopDynamics& loop) {
+  if (limits.current_limit > 0.0 && limits.voltage_limit > 0.0) {
+    table.problem("voltage_limit",
+                  "found current_limit too, expected one of both: a limited voltage keeps the "
+                  "current below voltage_limit / resistance");
+  }
+  if (limits.voltage_limit > 0.0) {
+    if (!(limits.inductance > 0.0)) table.missing("inductance", "of the coil, in H", {});
+    if (!(loop.amplifier_bandwidth > 0.0)) {
+      table.missing("amplifier_bandwidth", "of the current loop, which asks for the voltage", {});
+    }
+  } else {
+    for (const char* key : {"inductance", "resistance"}) {
+      if (table.has(key)) table.problem(key, "is needed under voltage_limit only; leave it out");
+    }
+  }
+}
+
+/// The law from displacements of the sensors to currents [A/m]; nothing: it is wrong, which is
+/// reported.
+std::optional<ControlLoop> read_control(ModelReading& reading, TableReader& table,
+                                        std::size_t item) {
+  ControlLoop made;
   PidController pid;
   table.read(pid);
   LoopDynamics loop;
   table.read(loop);
+  table.read(made.limits);
+  check_limits(table, made.limits, loop);
+  if (made.limits.any()) made.amplifier = std::exchange(loop.amplifier_bandwidth, 0.0);
   table.at_most("pade_order", loop.pade_order, most_pade_order);
   const bool has_pid =
       table.has("proportional") || table.has("integral") || table.has("derivative");
@@ -77,10 +106,12 @@ std::optional<StateSpace> read_control(ModelReading& reading, TableReader& table
   if (!has_pid && !law) return std::nullopt;
   try {
     if (law && !table.has("numerator")) {
-      return in_series(*law, chain(functions).repeated(law->outputs()));
+      made.control = in_series(*law, chain(functions).repeated(law->outputs()));
+    } else {
+      functions.insert(functions.begin(), has_pid ? transfer_function(pid) : *read_function(table));
+      made.control = chain(functions);
     }
-    functions.insert(functions.begin(), has_pid ? transfer_function(pid) : *read_function(table));
-    return chain(functions);
+    return made;
   } catch (const NumericalError& error) {
     table.problem(has_pid                    ? "proportional"
                   : table.has("state_space") ? "state_space"
@@ -109,6 +140,17 @@ StateSpace force_law(const StateSpace& control, const Actuator& actuator) {
   return law;
 }
 
+/// A limit of currents as one of that law.
+SignalLimit of_forces(SignalLimit limit, const Actuator& actuator) {
+  const Eigen::Index axes = limit.over_displacements.size();
+  for (Vec* row : {&limit.over_displacements, &limit.over_rates}) {
+    row->conservativeResizeLike(Vec::Zero(2 * axes));
+  }
+  limit.to_forces *= actuator.current_stiffness;
+  limit.force *= actuator.current_stiffness;
+  return limit;
+}
+
 void read_magnetic_bearings(ModelReading& reading) {
   reading.for_each("magnetic_bearing", [&](TableReader& table, std::size_t i) {
     Support support;
@@ -120,15 +162,27 @@ void read_magnetic_bearings(ModelReading& reading) {
     if (table.node("sensor")) sensor = station_at(reading, table, "sensor", false);
     Actuator actuator;
     table.read(actuator);
-    auto control = read_control(reading, table, i);
-    if (!control || !at || !sensor) return;
-    if (control->inputs() == 1) control = control->repeated(2);
-    if (control->inputs() != 2 || control->outputs() != 2) {
+    const auto loop = read_control(reading, table, i);
+    if (!loop || !at || !sensor) return;
+    StateSpace control = loop->control.inputs() == 1 ? loop->control.repeated(2) : loop->control;
+    if (control.inputs() != 2 || control.outputs() != 2) {
       table.problem(table.has("state_space") ? "state_space" : "A",
                     fmt::format("the controller has {} displacements and {} currents, "
                                 "expected 1 or 2 of both: the axes of the bearing",
-                                control->inputs(), control->outputs()));
+                                control.inputs(), control.outputs()));
       return;
+    }
+    if (loop->limits.any()) {
+      try {
+        LimitedCurrents limited = limited_currents(control, loop->amplifier, loop->limits);
+        control = std::move(limited.law);
+        for (SignalLimit& limit : limited.limits) {
+          support.limits.push_back(of_forces(std::move(limit), actuator));
+        }
+      } catch (const NumericalError& error) {
+        table.problem("amplifier_bandwidth", error.what());
+        return;
+      }
     }
     const auto axes = [&](const Station& station) {
       return std::vector{interface_along(station, to, actuator.angle),
@@ -138,7 +192,7 @@ void read_magnetic_bearings(ModelReading& reading) {
     support.sees = axes(*sensor);
     support.sensors = 2;
     support.sees.insert(support.sees.end(), support.acts_on.begin(), support.acts_on.end());
-    support.law = force_law(*control, actuator);
+    support.law = force_law(control, actuator);
     reading.model.structure.supports.push_back(std::move(support));
   });
 }
@@ -148,7 +202,7 @@ void read_magnetic_bearings(ModelReading& reading) {
 ModelTable magnetic_bearing_table() {
   return {
       .name = "magnetic_bearing",
-      .meaning = "active magnetic bearings with their controllers, linear",
+      .meaning = "active magnetic bearings with their controllers",
       .read = read_magnetic_bearings,
       .example =
           "body = \"b\"\n"

@@ -11,23 +11,6 @@ namespace whirl::inline io {
 
 namespace {
 
-/// When an unbalance begins: a time, or revolutions.
-Beginning read_beginning(TableReader& table) {
-  const auto text = table.string("begins");
-  if (!text) return {};
-  const auto quantity = parse_quantity(*text);
-  const bool is_time = quantity && quantity->dimension == dimension_of("s");
-  const bool is_turn = quantity && quantity->dimension == dimension_of("rad");
-  if (!(is_time || is_turn) || !(quantity->value > 0.0)) {
-    table.problem("begins", fmt::format("found {}, expected a time or revolutions after the start "
-                                        "of the recording, such as \"0.5 s\" or \"20 rev\"",
-                                        in_quotes(*text)));
-    return {};
-  }
-  if (is_time) return {.time = quantity->value};
-  return {.revolutions = quantity->value / (2.0 * std::numbers::pi)};
-}
-
 void read_unbalances(ModelReading& reading) {
   reading.for_each("unbalance", [&](TableReader& table, std::size_t) {
     const auto name = table.string("name");
