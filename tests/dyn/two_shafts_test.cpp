@@ -87,6 +87,42 @@ TEST(TwoShafts, MoveAtSpeedsOfTheirOwn) {
   }
 }
 
+// acceptance: without damping and friction the energy stays, whatever the shafts give each other
+// where they touch
+TEST(TwoShafts, KeepTheirEnergyOverAThousandImpacts) {
+  const Spools spools{.clearance = 1e-4, .mu = 0.0, .unbalance = 0.0};
+  Model model = spools.model();
+  model.structure.gravity = 0.0;
+  model.structure.bearings = {bearing(at(0.0), orthotropic(2e6, 3e6, 0.0, 0.0)),
+                              bearing(at(0.6), orthotropic(3e6, 2e6, 0.0, 0.0)),
+                              bearing(outer(0.1), isotropic(4e6)),
+                              connect(at(0.5), outer(0.5), isotropic(5e6))};
+  const Scene scene = make_scene(model);
+  const ReducedContact& contact = scene.contacts.contacts()[0];
+  const Mat stiffness = scene.reduced.stiffness();
+  const StateLayout layout = scene.contacts.layout();
+  const auto energy = [&](const Vec& y) {
+    const Vec x = layout.eta(y), v = layout.rate(y);
+    const double depth = std::max((contact.U * x).norm() - contact.clearance, 0.0);
+    return 0.5 * v.dot(scene.reduced.M * v) + 0.5 * x.dot(stiffness * x) +
+           0.5 * 5e6 * depth * depth;
+  };
+  MotionState state{.y = Vec::Zero(layout.size())};
+  layout.rate(state.y) = contact.U.transpose() * Vec2(0.5, 0.2);
+  const double before = energy(state.y);
+  ASSERT_GT(before, 0.0);
+  double worst = 0.0;
+  long events = 0;
+  for (int k = 0; k < 40 && events < 2000; ++k) {
+    const Integration part = run(scene, state, 10, {.tolerance = 1e-14});
+    ASSERT_EQ(part.outcome, Outcome::reached_end) << part.failure;
+    events += part.cost.events;
+    worst = std::max(worst, std::abs(energy(state.y) / before - 1.0));
+  }
+  EXPECT_GE(events, 2000);  // a touch and a release each
+  EXPECT_LT(worst, 1e-10);
+}
+
 // Slip is the difference of the speeds of both rims, whatever turns against what.
 TEST(TwoShafts, SlipByTheDifferenceOfTheirSpeeds) {
   for (const double ratio : {1.5, 1.0, 0.0, -1.0, -1.5}) {
