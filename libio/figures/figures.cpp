@@ -33,6 +33,7 @@
   frf_kind(),            \
   sensitivity_kind(),    \
   support_fit_kind(),    \
+  step_response_kind(),  \
   lateral_response_kind(), \
   coupling_kind(),       \
   balancing_kind(),      \

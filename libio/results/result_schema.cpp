@@ -16,6 +16,7 @@
 #include "libdyn/linear/modes_over.hpp"
 #include "libdyn/linear/sensitivity.hpp"
 #include "libdyn/linear/support_fits.hpp"
+#include "libdyn/linear/step_response.hpp"
 #include "libdyn/linear/unbalance_over.hpp"
 #include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/identify.hpp"
@@ -89,6 +90,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<FrequencyResponse>());
   add(schema_of<Sensitivity>());
   add(schema_of<SupportFits>());
+  add(schema_of<StepResponse>());
   add(schema_of<LateralReport>());
   add(schema_of<LateralParts>());
   add(schema_of<BranchResult>());

@@ -97,6 +97,12 @@ Parsed<double> parse_resolution(std::string_view text) {
   return parse_between(text, 1e-6, 10.0, "1e-6 to 10");
 }
 
+Parsed<double> parse_duration(std::string_view text) {
+  auto time = parse_as(text, "s");
+  if (!time || *time > 0.0) return time;
+  return Parsed<double>::failed("expected a time above 0");
+}
+
 Parsed<std::string> parse_method(const std::string& name,
                                  const std::vector<std::string_view>& methods) {
   const bool is_known = std::find(methods.begin(), methods.end(), name) != methods.end();

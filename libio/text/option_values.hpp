@@ -42,6 +42,9 @@ Parsed<double> parse_tolerance(std::string_view text);
 /// How well an exponent is to be known [1/revolution].
 Parsed<double> parse_resolution(std::string_view text);
 
+/// A time above 0 [s], with its unit or in seconds.
+Parsed<double> parse_duration(std::string_view text);
+
 /// Name of one of these integrators, or "cvode".
 Parsed<std::string> parse_method(const std::string& name,
                                  const std::vector<std::string_view>& methods);

@@ -26,4 +26,29 @@ std::string text_of(const Sensitivity& found) {
       shown_value(found.frequencies.back(), "Hz", ".4g"), table.text());
 }
 
+std::string text_of(const StepResponse& found) {
+  const auto milliseconds = [](double time) {
+    return std::isfinite(time) ? fmt::format("{:.4g}", 1e3 * time) : std::string("-");
+  };
+  const auto per_newton = [](double displacement) {
+    return std::isfinite(displacement) ? fmt::format("{:.4g}", 1e6 * displacement)
+                                       : std::string("-");
+  };
+  Table table({"bearing", "axis", "overshoot", "rise [ms]", "settled [ms]", "x/r",
+               "largest [um/N]", "x/F [um/N]"});
+  std::string before;
+  for (const LoopStep& step : found.steps) {
+    table.row({step.bearing == before ? "" : step.bearing, fmt::format("{}", step.axis),
+               std::isfinite(step.overshoot) ? fmt::format("{:.1f} %", 100.0 * step.overshoot) : "-",
+               milliseconds(step.rise_time), milliseconds(step.settling_time),
+               std::isfinite(step.reference_end) ? fmt::format("{:.4g}", step.reference_end) : "-",
+               per_newton(step.force_largest), per_newton(step.force_end)});
+    before = step.bearing;
+  }
+  return fmt::format(
+      "Step responses over {} s, of the reference r (left) and of a force F (right)\n\n{}\n"
+      "  Rise from 10 to 90 %; settled within 2 % of x/r in the end.\n",
+      shown_number(found.times.back(), "s", ".4g"), table.text());
+}
+
 }  // namespace whirl::inline io

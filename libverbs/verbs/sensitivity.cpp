@@ -1,9 +1,13 @@
 #include "libdyn/linear/sensitivity.hpp"
 
+#include <optional>
+
 #include "libdyn/linear/frequency_response.hpp"
+#include "libdyn/linear/step_response.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
+#include "libio/text/option_values.hpp"
 #include "libio/text/value_range.hpp"
 #include "libio/texts/sensitivity_text.hpp"
 #include "libio/texts/stability_text.hpp"
@@ -18,7 +22,11 @@ struct SensitivityVerbOptions {
   Option<std::vector<double>> frequencies{
       "frequencies", "A:B:STEP", "such as 1:500:0.5Hz; left out: those of the lowest modes",
       parse_frequencies};
-  auto fields() { return std::tie(frequencies); }
+  Option<double> steps{"steps", "T",
+                       "step responses, too, of the reference and of a force, over a time such as "
+                       "0.1s",
+                       parse_duration};
+  auto fields() { return std::tie(frequencies, steps); }
 };
 
 Report run_sensitivity(const Invocation& call, const SensitivityVerbOptions& options) {
@@ -30,11 +38,18 @@ Report run_sensitivity(const Invocation& call, const SensitivityVerbOptions& opt
   const Sensitivity found = loop_sensitivity(assembler, model.speed, frequencies);
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);
+  std::optional<StepResponse> response;
+  if (options.steps) {
+    response = step_response(model, *options.steps);
+    report.record.merge(record_of(*response));
+    report.text += "\n" + text_of(*response);
+  }
   report.add_notes(unstable_notes(assembler, {model.speed}));
   report.add_notes(linear_notes(model, {model.speed}));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, found);
+    if (response) write_result(file, *response);
   });
   return report;
 }
