@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "libdyn/system/stations.hpp"
 #include "libio/drawing/disk_shape.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/front_view.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/shown_units.hpp"
 
@@ -86,59 +88,6 @@ std::string stiffness_text(const Connection& b) {
   const BearingCoefficients c = coefficients(b.coefficients, 0.0);
   return fmt::format("{}, {}", format_engineering(c.K(0, 0), "N/m"),
                      format_engineering(c.C(0, 0), "N.s/m"));
-}
-
-/// A rotor of bodies only: contacts seen along the axis.
-std::vector<Figure> front_view(const Model& model) {
-  const std::vector<Contact> contacts = stator_contacts(model.contacts);
-  if (contacts.empty()) return {};
-  Figure f{.subtitle = "Rotor and stators, seen along the axis; clearances enlarged"};
-  f.columns = static_cast<int>(std::min<std::size_t>(3, contacts.size()));
-  f.width = std::max(460.0, 360.0 * f.columns);
-  f.height = 420.0;
-  for (const Contact& c : contacts) {
-    Panel p;
-    p.has_equal_scales = true;
-    p.title = c.name;
-    const double radius = c.friction.radius > 0.0 ? c.friction.radius : 5.0 * c.clearance;
-    const double gap = std::max(c.clearance, 0.12 * radius);
-    p.x.title = shown_heading("x", "mm");
-    p.y.title = shown_heading("y", "mm");
-    const bool is_given = c.friction.radius > 0.0;
-    Curve rotor = figures::circle(is_given ? "rotor" : "rotor, size not given (not to scale)",
-                                  per_mm() * radius);
-    rotor.paint = Paint::disk;
-    rotor.dash = is_given ? Dash::solid : Dash::dashed;
-    rotor.fill = is_given ? 0.4 : 0.0;
-    rotor.hover.assign(rotor.x.size(),
-                       is_given ? fmt::format("{} of radius {}", c.at.body, format_length(radius))
-                                : fmt::format("{}, its size not given", c.at.body));
-    const AnyGeometry geometry = geometry_of(c);
-    const auto direction = direction_of(geometry);
-    const auto stator = [&](double distance) {
-      if (direction) {
-        return figures::line_across("stator", *direction, per_mm() * (distance + gap),
-                                    per_mm() * radius);
-      }
-      return figures::curve_around("stator", [&](const Vec2& along) {
-        return per_mm() * (distance + reach_of(geometry, gap, along));
-      });
-    };
-    Curve inner = stator(radius), outer = stator(1.12 * radius);
-    inner.dash = outer.dash = Dash::solid;
-    inner.width = 2.2;
-    inner.hover.assign(inner.x.size(), "clearance " + format_length(c.clearance));
-    p.curves = {outer, inner, rotor};
-    const double reach =
-        direction ? per_mm() * (1.12 * radius + gap) : *std::ranges::max_element(outer.y);
-    p.labels.push_back({0.0, reach, "clearance " + format_length(c.clearance), Anchor::middle, 0.0,
-                        -7.0, Paint::stator});
-    const double widest = direction ? reach : std::max(reach, *std::ranges::max_element(outer.x));
-    p.x.first = p.y.first = -1.2 * widest;
-    p.x.last = p.y.last = 1.2 * widest;
-    f.panels.push_back(std::move(p));
-  }
-  return {f};
 }
 
 /// A rotor seen from the side, while its parts are added to the panel [shown unit of mm].
@@ -243,19 +192,60 @@ void add_disks(SideView& v) {
   }
 }
 
+/// Two rectangles above and below the shaft, from a radius on.
+void add_ring(SideView& v, const char* name, Paint paint, double at, double half_length, double low,
+              double height, const std::string& hover) {
+  const double high = low + height, left = at - half_length, right = at + half_length;
+  for (const double side : {1.0, -1.0}) {
+    v.panel.curves.push_back(area(name, paint, {left, right, right, left, left},
+                                  {side * low, side * low, side * high, side * high, side * low},
+                                  hover));
+  }
+}
+
+/// What carries the shaft at a station, as triangles above and below.
+void add_support(SideView& v, const char* kind, const std::string& name, const Station& station,
+                 const std::string& what) {
+  const double symbol = v.symbol(), at = v.position(station), radius = v.shaft_radius(station);
+  if (at < 0.0) return;
+  for (const double side : {1.0, -1.0}) {
+    v.panel.curves.push_back(
+        area(kind, Paint::bearing, {at, at + 0.6 * symbol, at - 0.6 * symbol, at},
+             {side * radius, side * (radius + symbol), side * (radius + symbol), side * radius},
+             fmt::format("{} {}: {}", kind, name, what)));
+  }
+  v.add_name(at, radius + symbol, name, Paint::bearing, true);
+}
+
 void add_bearings(SideView& v) {
-  const double symbol = v.symbol();
-  for (const Connection& b : v.model.structure.bearings) {
-    const double at = v.position(b.from);
-    if (at < 0.0) continue;
-    const double radius = v.shaft_radius(b.from);
-    for (const double side : {1.0, -1.0}) {
-      v.panel.curves.push_back(
-          area("bearing", Paint::bearing, {at, at + 0.6 * symbol, at - 0.6 * symbol, at},
-               {side * radius, side * (radius + symbol), side * (radius + symbol), side * radius},
-               fmt::format("bearing {}: {}", b.name, stiffness_text(b))));
+  const Structure& s = v.model.structure;
+  for (const Connection& b : s.bearings) {
+    add_support(v, "bearing", b.name, b.from, stiffness_text(b));
+  }
+  for (const Support& support : s.supports) {
+    const bool is_magnetic = support.sensors > 0;
+    for (const Station* at : places_of(support)) {
+      const bool acts = std::ranges::any_of(
+          support.acts_on, [&](const InterfaceCoordinate& c) { return c.at == *at; });
+      if (!acts) continue;  // a sensor
+      add_support(v, is_magnetic ? "magnetic bearing" : "support", support.name, *at,
+                  fmt::format("{} states", support.law.states()));
     }
-    v.add_name(at, radius + symbol, b.name, Paint::bearing, true);
+  }
+}
+
+/// Pitch circles of gears. The model does not give their width.
+void add_gears(SideView& v) {
+  const double half = 0.5 * v.symbol();
+  for (const GearPair& g : v.model.structure.gears) {
+    for (const auto& [station, r] :
+         {std::pair(&g.driving, g.driving_radius), std::pair(&g.driven, g.driven_radius)}) {
+      const double at = v.position(*station), radius = per_mm() * r;
+      if (at < 0.0) continue;
+      add_ring(v, "gear", Paint::disk, at, half, 0.9 * radius, 0.1 * radius,
+               fmt::format("gear {}: pitch radius {}", g.name, format_length(r)));
+      v.add_name(at, radius, g.name, Paint::disk, false);
+    }
   }
 }
 
@@ -275,24 +265,13 @@ void add_seals(SideView& v) {
   }
 }
 
-/// Two rectangles above and below the shaft, as long as they are, that leave a gap to it.
-void add_ring(SideView& v, const char* name, Paint paint, double at, double half_length, double low,
-              const std::string& hover) {
-  const double high = low + 0.5 * v.symbol(), left = at - half_length, right = at + half_length;
-  for (const double side : {1.0, -1.0}) {
-    v.panel.curves.push_back(area(name, paint, {left, right, right, left, left},
-                                  {side * low, side * low, side * high, side * high, side * low},
-                                  hover));
-  }
-}
-
 /// Rolling bearings. The model does not give their width.
 void add_rolling_bearings(SideView& v) {
   for (const Contact& b : rolling_bearings(v.model.contacts)) {
     const double at = v.position(b.at);
     if (at < 0.0) continue;
     const double low = v.shaft_radius(b.at) + 0.004 * v.length;
-    add_ring(v, "rolling bearing", Paint::bearing, at, 0.3 * v.symbol(), low,
+    add_ring(v, "rolling bearing", Paint::bearing, at, 0.3 * v.symbol(), low, 0.5 * v.symbol(),
              fmt::format("rolling bearing {}: {} elements", b.name, places_of(b.geometry)));
     v.add_name(at, low + 0.5 * v.symbol(), b.name, Paint::bearing, true);
   }
@@ -306,6 +285,7 @@ void add_films(SideView& v) {
     const double low = std::max(per_mm() * f.bearing.radius, v.shaft_radius(f.at)) +
                        std::max(per_mm() * f.bearing.clearance, 0.004 * v.length);
     add_ring(v, "oil film", Paint::bearing, at, 0.5 * per_mm() * f.bearing.length, low,
+             0.5 * v.symbol(),
              fmt::format("oil film {}: clearance {}", f.name, format_length(f.bearing.clearance)));
     v.add_name(at, low + 0.5 * v.symbol(), f.name, Paint::bearing, true);
   }
@@ -319,7 +299,7 @@ void add_contacts(SideView& v) {
     const double radius =
         c.friction.radius > 0.0 ? per_mm() * c.friction.radius : v.shaft_radius(c.at);
     const double low = radius + std::max(per_mm() * c.clearance, 0.004 * v.length);
-    add_ring(v, "contact", Paint::stator, at, 0.8 * symbol, low,
+    add_ring(v, "contact", Paint::stator, at, 0.8 * symbol, low, 0.5 * symbol,
              fmt::format("contact {}: clearance {}", c.name, format_length(c.clearance)));
     v.add_name(at, low + 0.5 * symbol, c.name, Paint::stator, true);
   }
@@ -378,6 +358,7 @@ std::vector<Figure> layout_of(const Model& model, const Assembler& assembler) {
   if (!(v.length > 0.0)) return front_view(model);
   add_shaft(v);
   add_disks(v);
+  add_gears(v);
   add_bearings(v);
   add_seals(v);
   add_films(v);

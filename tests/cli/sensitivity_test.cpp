@@ -44,6 +44,35 @@ TEST_F(Sensitivities, TellsSizePlaceAndZone) {
   EXPECT_TRUE(has(out, "3.98")) << out;
 }
 
+TEST_F(Sensitivities, TellStepResponses) {
+  const json r = result({"sensitivity", "rotor.toml", "--frequencies", "10:100:1Hz", "--steps",
+                         "50ms", "--out", "s.h5"});
+  ASSERT_EQ(r["steps"].size(), 2u);
+  EXPECT_EQ(r["times_s"].size(), 1001u);
+  EXPECT_NEAR(r["steps"][0]["reference_end"].get<double>(), 2.0, 1e-12);
+  EXPECT_NEAR(r["steps"][1]["force_end"].get<double>(), 1e-6, 1e-15);
+  EXPECT_EQ(r["steps"][0]["reference"].size(), 1001u);
+  const Outcome plotted = whirl({"plot", "s.h5", "step_response"});
+  EXPECT_EQ(plotted.status, 0) << plotted.err;
+  const Outcome wrong = whirl({"sensitivity", "rotor.toml", "--steps", "-1s"});
+  EXPECT_NE(wrong.status, 0);
+  EXPECT_TRUE(has(wrong.err, "above 0")) << wrong.err;
+}
+
+// A step of 100 N on 1 MN/m that begins after half a revolution: what comes before is rest, what
+// comes in the end its deflection; a limited current leaves the magnet less.
+TEST_F(Sensitivities, ForcesThatBeginAreSteps) {
+  write("step.toml", std::string(levitated) +
+                         "current_limit = \"5 A\"\n[[force]]\nbody = \"rotor\"\n"
+                         "force = \"100 N\"\nbegins = \"0.5 rev\"\n"
+                         "[reduction]\nmethod = \"none\"\n");
+  const json r = result({"simulate", "step.toml", "--revolutions", "4", "--discard", "0"});
+  EXPECT_NEAR(r["load_begins_s"][0].get<double>(), 0.03, 1e-12);
+  const double largest = r["stations"][0]["max_radius_m"].get<double>();
+  EXPECT_GT(largest, 1e-4);  // overshoots
+  EXPECT_LT(largest, 1.5e-4);
+}
+
 TEST_F(Sensitivities, UnstableLoopsAreTold) {
   const json r = result({"sensitivity", "rotor.toml", "--frequencies", "10:100:1Hz", "--set",
                          "magnetic_bearing.magnet.derivative=-1"});

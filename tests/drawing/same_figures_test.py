@@ -476,7 +476,7 @@ def results(whirl, repository, folder):
         ("ups", "sweep", probed, "--over", "operation.speed=3000:4000:500rpm", "--discard", "20",
          "--revolutions", "10", "--spectra", "8"),
         ("responses", "frf", models / "two_disk_mac.toml", "--from", "7:forward,7:x"),
-        ("magnets", "sensitivity", models / "magnetic_bearing.toml"),
+        ("magnets", "sensitivity", models / "magnetic_bearing.toml", "--steps", "50ms"),
         ("pedestal", "check", models.parent / "tests" / "data" / "pedestal" / "pedestal.toml"),
         ("lateral", "lateral", models / "compressor.toml", "--minimum-speed", "4000rpm", "--cross-coupling", "5MN/m"),
         ("critical", "critical", models / "two_disk_mac.toml"),

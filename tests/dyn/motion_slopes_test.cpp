@@ -16,6 +16,7 @@
 #include "tests/support/oil_films.hpp"
 #include "tests/support/overhung_disk.hpp"
 #include "tests/support/rotor_in_bearing.hpp"
+#include "tests/support/saturated_magnet.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::motion_slopes_test {
@@ -367,6 +368,13 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesOfRollers) {
       {"line", [](Model& m) -> double& { return std::get<Line<>>(m.contacts[0].law).k; }}};
   expect_differences(
       {.model = test::rotors_in_bearings()[2].model(), .settle = 5, .revolutions = 7}, knobs);
+}
+
+TEST(MotionSlopes, AreTheLimitOfDifferencesOfSaturatedMagnets) {
+  for (const test::InMagneticBearing& rotor : test::saturated_magnets()) {
+    const std::vector<Knob> knobs{speed(), unbalance(), mass(0)};
+    EXPECT_GE(expect_differences({.model = rotor.model(), .settle = 2}, knobs).events.size(), 2u);
+  }
 }
 
 TEST(MotionSlopes, AreTheLimitOfDifferencesOnOilFilms) {

@@ -3,112 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "libdyn/motions/run_model.hpp"
 #include "libdyn/motions/simulate.hpp"
-#include "libdyn/system/support_limits.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libfe/parts/control.hpp"
 #include "tests/support/law_proofs.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/saturated_magnet.hpp"
 
 namespace whirl::saturation_test {
 
-/// A disk with unbalance in a magnetic bearing, whose equations are written down below once more.
-struct InMagneticBearing {
-  double Omega = 330.0;
-  double m = 10.0, ki = 200.0, ks = -1.5e6, U = 0.0045;  // a spring keeps what no current can
-  double P = 1.5e4, D = 30.0;
-  double filter = 4000.0;     // of the derivative [rad/s]; 0: it has no end
-  double amplifier = 2500.0;  // [rad/s]; 0: it has none
-  AmplifierLimits limits{.current_limit = 1.5};
-
-  StateSpace control() const {
-    return chain({transfer_function(
-        PidController{.proportional = P, .derivative = D, .derivative_bandwidth = filter})});
-  }
-  Model model() const {
-    Model all;
-    all.speed = Omega;
-    all.has_speed = true;
-    Structure& s = all.structure;
-    s.bodies = {{.name = "disk", .m = m, .spins = true}};
-    s.unbalances = {{.at = test::body("disk"), .moment = U}};
-    s.bearings = {test::bearing(test::body("disk"), test::isotropic(-ks))};
-    LimitedCurrents currents = limited_currents(control().repeated(2), amplifier, limits);
-    Support support{.name = "amb", .sensors = 2};
-    support.sees = support.acts_on = {{.at = test::body("disk"), .x = 1.0, .y = 0.0},
-                                      {.at = test::body("disk"), .x = 0.0, .y = 1.0}};
-    support.law = currents.law;
-    support.law.C *= ki;
-    support.law.D *= ki;
-    support.law.D_rate *= ki;
-    for (SignalLimit& limit : currents.limits) {
-      limit.to_forces *= ki;
-      limit.force *= ki;
-      support.limits.push_back(limit);
-    }
-    s.supports = {support};
-    add_limits(all);
-    all.reduction.method = ReductionMethod::none;
-    return all;
-  }
-  Scene scene() const { return make_scene(model()); }
-
-  /// u, u', the filtered displacement of the derivative and the current, of one axis.
-  using Axis = std::array<double, 4>;
-  static double clamp(double x, double limit) {
-    return limit > 0.0 ? std::clamp(x, -limit, limit) : x;
-  }
-  Axis rates(const Axis& y, double load) const {
-    const auto [u, v, q, i] = y;
-    const double slope = filter > 0.0 ? filter * (u - q) : v;
-    const double asked = clamp(P * u + D * slope, limits.current_limit);
-    const double current = amplifier > 0.0 ? i : asked;
-    double charge = amplifier * (asked - i);
-    if (limits.voltage_limit > 0.0) {
-      const double L = limits.inductance, R = limits.resistance;
-      charge = (clamp(L * charge + R * i, limits.voltage_limit) - R * i) / L;
-    }
-    return {v, (load - ki * current + ks * u) / m, filter * (u - q), charge};
-  }
-  /// The disk after some revolutions from rest, by Runge-Kutta steps that are short.
-  Vec end_after(double revolutions) const {
-    Vec end(4);
-    const double h = 0.25e-6 * 2.0 * std::numbers::pi / Omega * 20.0;
-    const auto steps = std::lround(revolutions / 20.0 * 4e6);
-    for (const int axis : {0, 1}) {
-      Axis y{};
-      const auto at = [&](const Axis& from, const Axis& k, double part) {
-        Axis to;
-        for (std::size_t j = 0; j < 4; ++j) to[j] = from[j] + part * k[j];
-        return to;
-      };
-      const auto load = [&](double t) {
-        return U * Omega * Omega * (axis == 0 ? std::cos(Omega * t) : std::sin(Omega * t));
-      };
-      for (long n = 0; n < steps; ++n) {
-        const double t = double(n) * h;
-        const Axis a = rates(y, load(t)), b = rates(at(y, a, h / 2), load(t + h / 2)),
-                   c = rates(at(y, b, h / 2), load(t + h / 2)), d = rates(at(y, c, h), load(t + h));
-        for (std::size_t j = 0; j < 4; ++j) y[j] += h / 6 * (a[j] + 2 * b[j] + 2 * c[j] + d[j]);
-      }
-      end(axis) = y[0];
-      end(2 + axis) = y[1];
-    }
-    return end;
-  }
-};
-
-std::vector<InMagneticBearing> kinds() {
-  InMagneticBearing of_current, ideal, of_voltage;
-  ideal.filter = ideal.amplifier = 0.0;
-  of_voltage.limits = {.voltage_limit = 15.0, .inductance = 0.02, .resistance = 2.0};
-  return {of_current, ideal, of_voltage};
-}
+using test::InMagneticBearing;
 
 Vec disk_of(const Scene& scene, const MotionState& state) {
   const FullState full = full_state(scene, state);
@@ -122,7 +28,7 @@ MotionState rest(const Scene& scene) {
 }
 
 TEST(Saturation, MovesAsItsEquationsSay) {
-  for (const InMagneticBearing& rotor : kinds()) {
+  for (const InMagneticBearing& rotor : test::saturated_magnets()) {
     const Scene scene = rotor.scene();
     std::vector<Trajectory> one{
         {.system = &scene.contacts, .state = rest(scene), .revolutions = 8}};
@@ -144,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, SaturationByMethod,
 
 TEST_P(SaturationByMethod, MovesAsInQuadruplePrecision) {
   const auto [name, accuracy] = GetParam();
-  for (const InMagneticBearing& rotor : kinds()) {
+  for (const InMagneticBearing& rotor : test::saturated_magnets()) {
     const Scene scene = rotor.scene();
     const test::Stretch s{scene, rest(scene), 1, 4};
     test::expect_end_by(name, s, test::exact_end(s, 1e-18), accuracy);
@@ -152,7 +58,7 @@ TEST_P(SaturationByMethod, MovesAsInQuadruplePrecision) {
 }
 
 TEST(Saturation, ErrorFollowsTheTolerance) {
-  for (const InMagneticBearing& rotor : kinds()) {
+  for (const InMagneticBearing& rotor : test::saturated_magnets()) {
     const Scene scene = rotor.scene();
     const test::Stretch s{scene, rest(scene), 1, 4};
     test::expect_error_follows_tolerance(s, test::exact_end(s, 1e-20));
@@ -160,7 +66,7 @@ TEST(Saturation, ErrorFollowsTheTolerance) {
 }
 
 TEST(Saturation, InABatchIsBitwiseTheSameAsAlone) {
-  for (const InMagneticBearing& like : kinds()) {
+  for (const InMagneticBearing& like : test::saturated_magnets()) {
     std::vector<Scene> scenes;
     std::vector<MotionState> starts;
     for (int i = 0; i < 11; ++i) {
@@ -176,7 +82,7 @@ TEST(Saturation, InABatchIsBitwiseTheSameAsAlone) {
 }
 
 TEST(Saturation, HasTangentsThatAreLimitsOfDifferences) {
-  for (const InMagneticBearing& rotor : kinds()) {
+  for (const InMagneticBearing& rotor : test::saturated_magnets()) {
     const Scene scene = rotor.scene();
     MotionState start = rest(scene);
     test::run(scene, start, 3, {.tolerance = 1e-12});
@@ -185,7 +91,7 @@ TEST(Saturation, HasTangentsThatAreLimitsOfDifferences) {
 }
 
 TEST(Saturation, HasTheDivergenceOfItsTangent) {
-  for (InMagneticBearing rotor : kinds()) {
+  for (InMagneticBearing rotor : test::saturated_magnets()) {
     if (rotor.amplifier > 0.0) rotor.filter = 400.0, rotor.amplifier = 300.0;  // that leave digits
     const Scene scene = rotor.scene();
     MotionState start = rest(scene);
@@ -195,7 +101,7 @@ TEST(Saturation, HasTheDivergenceOfItsTangent) {
 }
 
 TEST(Saturation, MovesByRk4AsByTaylorSeries) {
-  for (const InMagneticBearing& rotor : kinds()) {
+  for (const InMagneticBearing& rotor : test::saturated_magnets()) {
     const Scene scene = rotor.scene();
     MotionState exact = rest(scene);
     test::run(scene, exact, 2, {.tolerance = 1e-13});
@@ -209,7 +115,7 @@ TEST(Saturation, MovesByRk4AsByTaylorSeries) {
 
 // What does not get to its limit moves as if there were none.
 TEST(Saturation, IsNotThereBelowItsLimit) {
-  for (InMagneticBearing rotor : kinds()) {
+  for (InMagneticBearing rotor : test::saturated_magnets()) {
     rotor.U *= 0.01;
     MotionState with = rest(rotor.scene()), without;
     const Scene scene = rotor.scene();
@@ -226,7 +132,7 @@ TEST(Saturation, IsNotThereBelowItsLimit) {
 
 // The bearing does not push harder than its largest current does.
 TEST(Saturation, LimitsTheForceOfTheBearing) {
-  const InMagneticBearing rotor = kinds()[1];
+  const InMagneticBearing rotor = test::saturated_magnets()[1];
   const auto run =
       run_model(rotor.model(), {.simulation = {.revolutions = 4, .discard = 4, .samples = 256}});
   const Mat& forces =

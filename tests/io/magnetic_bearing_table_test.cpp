@@ -83,6 +83,35 @@ TEST(MagneticBearingTable, ControllersMayBeAnyLaw) {
               200.0 * (2.0 + 6.0 / (s + 200.0)) * std::exp(-1e-5 * s));
 }
 
+// Limits leave the linear law as it is; each axis has a contact for its own, behind all others.
+TEST(MagneticBearingTable, HasLimitsOfCurrentAndVoltage) {
+  const std::string control =
+      "proportional = 1e4\nderivative = 20\nderivative_bandwidth = 5000\n"
+      "amplifier_bandwidth = 2000\n";
+  const Support plain = magnet(control);
+  const Support current = magnet(control + "current_limit = \"3 A\"\n");
+  const Support voltage = magnet(
+      control + "voltage_limit = \"80 V\"\ninductance = \"20 mH\"\nresistance = \"500 mohm\"\n");
+  EXPECT_TRUE(plain.limits.empty());
+  for (const Support* support : {&current, &voltage}) {
+    ASSERT_EQ(support->limits.size(), 2u);
+    expect_near(support->law.stiffness_at(s)(0, 0), plain.law.stiffness_at(s)(0, 0));
+    expect_near(support->law.stiffness_at(s)(1, 3), plain.law.stiffness_at(s)(1, 3));
+  }
+  EXPECT_EQ(current.limits[1].name, "current of axis 2");
+  EXPECT_DOUBLE_EQ(current.limits[1].limit, 3.0);
+  EXPECT_DOUBLE_EQ(current.limits[1].force, 200.0);
+  EXPECT_DOUBLE_EQ(voltage.limits[0].limit, 80.0);
+  EXPECT_DOUBLE_EQ(voltage.limits[0].force, 200.0 / (0.02 * 2000.0));
+  const Model model = parse_model(machine + control + "current_limit = 3\n" +
+                                  "[[contact]]\nname = \"touch-down\"\nbody = \"rotor\"\n"
+                                  "clearance = \"0.2 mm\"\nstiffness = \"10 MN/m\"\n");
+  ASSERT_EQ(model.contacts.size(), 3u);
+  EXPECT_EQ(model.contacts[0].name, "touch-down");
+  EXPECT_EQ(model.contacts[2].name, "magnet, current of axis 2");
+  EXPECT_EQ(stator_contacts(model.contacts).size(), 1u);
+}
+
 TEST(MagneticBearingTable, WrongControllersAreToldWithTheirPlace) {
   const auto told = [](const std::string& lines, const char* key, const char* words) {
     try {
@@ -99,6 +128,14 @@ TEST(MagneticBearingTable, WrongControllersAreToldWithTheirPlace) {
   told("numerator = [1, 0, 0]\ndenominator = [1]\n", "numerator", "square of the frequency");
   told("proportional = 1\npade_order = 30\n", "pade_order", "up to 20");
   told("proportional = \"1 N/m\"\n", "proportional", "current per displacement");
+  const std::string good = "proportional = 1e4\nderivative = 20\nderivative_bandwidth = 5000\n";
+  told(good + "current_limit = 1\nvoltage_limit = 9\ninductance = 1\namplifier_bandwidth = 9\n",
+       "voltage_limit", "one of both");
+  told(good + "voltage_limit = 9\namplifier_bandwidth = 9\n", "inductance", "of the coil");
+  told(good + "voltage_limit = 9\ninductance = 1\n", "amplifier_bandwidth", "current loop");
+  told(good + "inductance = 1\n", "inductance", "voltage_limit only");
+  told("proportional = 1\nderivative = 1\ncurrent_limit = 1\namplifier_bandwidth = 9\n",
+       "amplifier_bandwidth", "derivative_bandwidth");
   told("A = [[-1]]\nB = [[1, 2, 3]]\nC = [[1]]\n", "A", "3 displacements and 1 currents");
 }
 
