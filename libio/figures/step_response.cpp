@@ -34,9 +34,8 @@ Panel panel_of(const StepResponse& found, const char* title, const char* y, doub
     c.dash = series_dash(i);
     panel.curves.push_back(std::move(c));
     const double at = factor * step.*end;
-    const bool is_known = std::ranges::any_of(ends, [&](double other) {
-      return std::abs(other - at) <= 1e-6 * std::abs(at);
-    });
+    const bool is_known = std::ranges::any_of(
+        ends, [&](double other) { return std::abs(other - at) <= 1e-6 * std::abs(at); });
     if (!std::isfinite(at) || is_known) continue;
     ends.push_back(at);
     panel.rules.push_back(
@@ -52,8 +51,8 @@ std::vector<Figure> step_response_figures(const ResultView& result) {
   f.subtitle = fmt::format("at {}", shown_value(found.speed, "rpm", ".0f"));
   f.panels = {panel_of(found, "of the reference", "displacement over reference", 1.0,
                        &LoopStep::reference, &LoopStep::reference_end),
-              panel_of(found, "of a force", "displacement over force [µm/N]", 1e6,
-                       &LoopStep::force, &LoopStep::force_end)};
+              panel_of(found, "of a force", "displacement over force [µm/N]", 1e6, &LoopStep::force,
+                       &LoopStep::force_end)};
   if (found.steps.size() > most_curves) {
     f.notes.push_back(fmt::format("The first {} of {} loops.", most_curves, found.steps.size()));
   }
@@ -66,8 +65,9 @@ FigureKind step_response_kind() {
   return {
       .name = "step_response",
       .title = "Step responses of control loops",
-      .summary = "displacement at the sensors of magnetic bearings after a step of reference or "
-                 "force",
+      .summary =
+          "displacement at the sensors of magnetic bearings after a step of reference or "
+          "force",
       .needs = {dataset_of<StepResponse>(&LoopStep::reference)},
       .make = step_response_figures,
   };

@@ -133,9 +133,9 @@ std::vector<RecordSource> read_list(const std::filesystem::path& path, const Rec
 }  // namespace
 
 Model with_values(const Model& model, const std::vector<std::string>& sets) {
-  return parse_model(model.source, model.path, sets,
-                     NamedFiles::of_sets_in(std::filesystem::path(model.path).parent_path())
-                         .with(law_table));
+  return parse_model(
+      model.source, model.path, sets,
+      NamedFiles::of_sets_in(std::filesystem::path(model.path).parent_path()).with(law_table));
 }
 
 Model model_for(const Model& model, const RecordSource& source) {

@@ -114,7 +114,8 @@ void add_model(const Model& model, Sentences& to) {
   if (!rolling_bearings(model.contacts).empty()) {
     to.add(
         "Rolling bearings: each ball or roller pressed by Hertz, rolling without slip, without "
-        "mass, in the plane of the bearing; in linear analyses linearized about the static equilibrium, "
+        "mass, in the plane of the bearing; in linear analyses linearized about the static "
+        "equilibrium, "
         "the cage where it is at time 0.");
   }
   if (!stator_contacts(model.contacts).empty()) {

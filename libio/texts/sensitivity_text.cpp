@@ -34,15 +34,16 @@ std::string text_of(const StepResponse& found) {
     return std::isfinite(displacement) ? fmt::format("{:.4g}", 1e6 * displacement)
                                        : std::string("-");
   };
-  Table table({"bearing", "axis", "overshoot", "rise [ms]", "settled [ms]", "x/r",
-               "largest [um/N]", "x/F [um/N]"});
+  Table table({"bearing", "axis", "overshoot", "rise [ms]", "settled [ms]", "x/r", "largest [um/N]",
+               "x/F [um/N]"});
   std::string before;
   for (const LoopStep& step : found.steps) {
-    table.row({step.bearing == before ? "" : step.bearing, fmt::format("{}", step.axis),
-               std::isfinite(step.overshoot) ? fmt::format("{:.1f} %", 100.0 * step.overshoot) : "-",
-               milliseconds(step.rise_time), milliseconds(step.settling_time),
-               std::isfinite(step.reference_end) ? fmt::format("{:.4g}", step.reference_end) : "-",
-               per_newton(step.force_largest), per_newton(step.force_end)});
+    table.row(
+        {step.bearing == before ? "" : step.bearing, fmt::format("{}", step.axis),
+         std::isfinite(step.overshoot) ? fmt::format("{:.1f} %", 100.0 * step.overshoot) : "-",
+         milliseconds(step.rise_time), milliseconds(step.settling_time),
+         std::isfinite(step.reference_end) ? fmt::format("{:.4g}", step.reference_end) : "-",
+         per_newton(step.force_largest), per_newton(step.force_end)});
     before = step.bearing;
   }
   return fmt::format(

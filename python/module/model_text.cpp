@@ -68,9 +68,9 @@ py::tuple compressed_columns(Sparse matrix) {
 ModelText::ModelText(std::string file, std::string text, std::vector<std::string> sets, bool stored)
     : file_(std::move(file)), text_(std::move(text)), sets_(std::move(sets)), is_stored_(stored) {
   const std::filesystem::path folder = std::filesystem::path(file_).parent_path();
-  made_ = std::make_shared<const Model>(parse_model(
-      text_, file_, sets_,
-      (stored ? NamedFiles::of_sets_in(folder) : NamedFiles(folder)).with(law_table)));
+  made_ = std::make_shared<const Model>(
+      parse_model(text_, file_, sets_,
+                  (stored ? NamedFiles::of_sets_in(folder) : NamedFiles(folder)).with(law_table)));
 }
 
 ModelText ModelText::with(const std::vector<std::string>& sets) const {

@@ -17,7 +17,8 @@ namespace {
 bool names_file(const whirl::ConfigNode& node) {
   for (const auto& [key, value] : node.entries) {
     const bool is_text = value.kind == whirl::ConfigNode::Kind::string;
-    if ((key == "table" || key == "bow") && is_text && value.text.find('\n') == std::string::npos) return true;
+    if ((key == "table" || key == "bow") && is_text && value.text.find('\n') == std::string::npos)
+      return true;
     if (names_file(value)) return true;
   }
   return std::any_of(node.items.begin(), node.items.end(), names_file);
