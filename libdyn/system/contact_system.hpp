@@ -176,8 +176,6 @@ class ContactSystem {
   /// Adds a contact at every place of its geometry.
   /// @param owner  number of the contact in the model, from 0
   void add_contact(const Reduction& by, const Contact& contact, int owner);
-  void add_limit(const Reduction& by, const Contact& contact, ReducedContact limit);
-  void add_places(const ReducedContact& contact, const PartSpeeds& speeds);
   void add_film(const Reduction& by, const OilFilm& film);
   /// How far the loads move a rotor without contacts and films [m], or a millimeter if they do not.
   double size_of_motion(const Reduction& by) const;

@@ -65,6 +65,23 @@ AnyContactLaw<> law_at(double Omega, AnyContactLaw<> any, const Friction& fricti
   return any;
 }
 
+/// The signal is told in lengths, clearance : limit; so is its rate, which makes no friction.
+/// @param by  as ContactSystem::Reduction
+template <class By>
+void set_rows_of_limit(ReducedContact& limit, const By& by, const Contact& contact) {
+  const Structure& structure = by.assembler.structure();
+  const auto& [support, number] = *contact.limits;
+  const SignalLimit& of = structure.supports[support].limits[number];
+  const LimitedSignal signal =
+      limited_signal(structure, by.assembler.mesh(), by.assembler.dofs(), support, number);
+  const double length = contact.clearance / of.limit;  // per unit of the signal
+  limit.U = limit.V = PlaneRows::Zero(2, by.back.cols());
+  limit.U.row(0) = length * (signal.displacement.transpose() * by.back);
+  limit.V.row(0) = length * (signal.rate.transpose() * by.back);
+  limit.B = limit.B_t = PlaneColumns::Zero(by.back.cols(), 2);
+  limit.B.col(0) = -by.load(signal.force) / of.force;
+}
+
 }  // namespace
 
 PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs) {
@@ -140,40 +157,23 @@ void ContactSystem::add_contact(const Reduction& by, const Contact& c, int owner
                    .law = law_at(speeds.at, c.law, c.friction),
                    .geometry = geometry,
                    .owner = owner};
-  if (c.limits) return add_limit(by, c, std::move(r));
-  r.U = closing_rows(c, by.assembler, by.reduced.dofs) * by.reduced.Phi;
-  r.B = by.mass.solve(r.U.transpose());
-  if (whirl::rubs_apart(geometry)) {
+  if (c.limits) {
+    set_rows_of_limit(r, by, c);
+  } else {
+    r.U = closing_rows(c, by.assembler, by.reduced.dofs) * by.reduced.Phi;
+    r.B = by.mass.solve(r.U.transpose());
+  }
+  if (whirl::rubs_apart(geometry) && !c.limits) {
     r.V = relative_rows(Closing::lateral, by.reduced.dofs, by.assembler.point(c.at),
                         by.assembler.point(c.against)) *
           by.reduced.Phi;
     r.B_t = by.mass.solve(r.V.transpose());
   }
-  add_places(r, speeds);
-}
-
-void ContactSystem::add_places(const ReducedContact& contact, const PartSpeeds& speeds) {
-  for (int i = 0; i < places_of(contact.geometry); ++i) {
-    ReducedContact& one = contacts_.emplace_back(contact);
-    one.geometry = place_of(contact.geometry, i, speeds);
-    one.place = i;
+  for (int i = 0; i < places_of(geometry); ++i) {
+    r.geometry = place_of(geometry, i, speeds);
+    r.place = i;
+    contacts_.push_back(r);
   }
-}
-
-/// The signal is told in lengths, clearance : limit; so is its rate, which makes no friction.
-void ContactSystem::add_limit(const Reduction& by, const Contact& contact, ReducedContact limit) {
-  const Structure& structure = by.assembler.structure();
-  const auto& [support, number] = *contact.limits;
-  const SignalLimit& of = structure.supports[support].limits[number];
-  const LimitedSignal signal =
-      limited_signal(structure, by.assembler.mesh(), by.assembler.dofs(), support, number);
-  const double length = contact.clearance / of.limit;  // per unit of the signal
-  limit.U = limit.V = PlaneRows::Zero(2, coordinates());
-  limit.U.row(0) = length * (signal.displacement.transpose() * by.back);
-  limit.V.row(0) = length * (signal.rate.transpose() * by.back);
-  limit.B = limit.B_t = PlaneColumns::Zero(coordinates(), 2);
-  limit.B.col(0) = -by.load(signal.force) / of.force;
-  add_places(limit, {});
 }
 
 void ContactSystem::add_film(const Reduction& by, const OilFilm& film) {

@@ -21,7 +21,9 @@ struct Label {
 std::vector<Label> labels(const Model& model, const Assembler& assembler) {
   std::vector<Label> all;
   for (const Disk& d : model.structure.disks) all.push_back({assembler.point(d.at), d.name});
-  for (const Contact& c : model.contacts) all.push_back({assembler.point(c.at), c.name});
+  for (const Contact& c : model.contacts) {
+    if (!c.limits) all.push_back({assembler.point(c.at), c.name});
+  }
   for (const OilFilm& f : model.films) all.push_back({assembler.point(f.at), f.name});
   for (const auto* list : {&model.structure.bearings, &model.structure.seals}) {
     for (const Connection& c : *list) all.push_back({assembler.point(c.from), c.name});

@@ -74,7 +74,6 @@ struct ContactLanes {
   bool any_has_tau = false;              // whether in any lane tau is more than a share of q
   bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
   bool slip_is_known = false;            // whether `slip` is a series that was watched
-  int last_term = 0;                     // of the coordinates
   typename P::Mask evaluated, in_touch;  // lanes that need the force, lanes that feel it
   typename P::Mask has_tau;              // lanes that slide smoothly or stick
   P inverse_r{1.0}, share{0.0};
@@ -151,7 +150,7 @@ struct ContactLanes {
   /// Prepares for a step of the lanes that are active.
   /// @param last  the last coefficient of coordinates that there is
   HWY_ATTR void begin(uint64_t active, int last) {
-    last_term = last;
+    if (rub) rub->last = last;
     const uint64_t needed = (touching | receding) & active;
     is_evaluated = needed != 0;
     slip_is_known = false;
@@ -230,12 +229,7 @@ struct ContactLanes {
     displacement(x, xk, yk);
     s[k] = fma(dx[0], xk, dy[0] * yk);
     if (k == 0) s[0] = s[0] - plane_at;
-    if (rows.is_limit && k < last_term) add_rates(x + rows.coordinates, k);
-  }
-  /// Adds coefficient k of the rates that a limit reads, from coefficient k + 1 of the coordinates.
-  HWY_NOINLINE HWY_ATTR void add_rates(const P* next, int k) {
-    rub->velocity(next, k);
-    s[k] = fma(dx[0], rub->wx[k], fma(dy[0], rub->wy[k], s[k]));
+    if (rows.is_limit) s[k] = rub->with_rates(s[k], x, k, dx[0], dy[0]);
   }
 
   /// The same of a wall, for any k. Out of line: inside the loop that has this call its tapes make

@@ -23,6 +23,7 @@ struct RubLanes {
   std::vector<P> vx, vy;                             // per slips_by_x, slips_by_y
   std::vector<P> bx, by;                             // per rubbed_x, rubbed_y
   P wx[P::most_terms] = {}, wy[P::most_terms] = {};  // lateral velocity V eta'
+  int last = 0;                                      // coefficient of the coordinates that there is
   P fx{0.0}, fy{0.0};  // newest coefficient of the friction on the rotor, sign reversed
 
   explicit RubLanes(const Pattern::ContactRows& of)
@@ -54,6 +55,13 @@ struct RubLanes {
     const P whole(k + 1.0);
     wx[k] = whole * wx[k];
     wy[k] = whole * wy[k];
+  }
+
+  /// Coefficient k of a signal with the rates that are in it, n . V eta'.
+  HWY_NOINLINE HWY_ATTR P with_rates(const P& s, const P* x, int k, const P& nx, const P& ny) {
+    if (k >= last) return s;
+    velocity(x + rows.coordinates, k);
+    return fma(nx, wx[k], fma(ny, wy[k], s));
   }
 
   /// Coefficient k of d x w, whose quotient by the distance is in the slip.

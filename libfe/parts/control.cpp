@@ -123,7 +123,7 @@ LimitedCurrents limited_currents(const StateSpace& control, double bandwidth,
   }
   const double L = limits.inductance, R = limits.resistance;
   const auto add = [&](const char* signal, Eigen::Index axis, double limit, double of_y,
-                       double of_i, double to_i) {
+                       double of_i) -> SignalLimit& {
     SignalLimit& one = made.limits.emplace_back();
     one.name = std::string(signal) + " of axis " + std::to_string(axis + 1);
     one.limit = limit;
@@ -134,17 +134,23 @@ LimitedCurrents limited_currents(const StateSpace& control, double bandwidth,
     one.over_rates = control.D_rate.size() > 0 ? Vec(of_y * control.D_rate.row(axis).transpose())
                                                : Vec(Vec::Zero(p));
     one.to_forces = Vec::Zero(m);
-    if (has_amplifier) {
-      one.to_states(n + axis) = to_i;
-    } else {
-      one.to_forces(axis) = 1.0;
-    }
-    one.force = 1.0 / of_y;  // y that makes so much of the signal
+    return one;
   };
+  const bool has_voltage = limits.voltage_limit > 0.0;
   for (Eigen::Index axis = 0; axis < m; ++axis) {
-    if (limits.current_limit > 0.0) add("current", axis, limits.current_limit, 1.0, 0.0, w);
-    if (limits.voltage_limit > 0.0) {
-      add("voltage", axis, limits.voltage_limit, L * w, R - L * w, 1.0 / L);
+    if (limits.current_limit > 0.0) {
+      SignalLimit& one = has_voltage ? add("current", axis, limits.current_limit, 0.0, 1.0)
+                                     : add("current", axis, limits.current_limit, 1.0, 0.0);
+      if (has_amplifier && !has_voltage) {
+        one.to_states(n + axis) = w;
+      } else {
+        one.to_forces(axis) = 1.0;
+      }
+    }
+    if (has_voltage) {
+      SignalLimit& one = add("voltage", axis, limits.voltage_limit, L * w, R - L * w);
+      one.to_states(n + axis) = 1.0 / L;
+      one.force = 1.0 / (L * w);  // what y makes so much of it
     }
   }
   return made;

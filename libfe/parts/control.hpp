@@ -55,7 +55,8 @@ struct LoopDynamics {
 ///
 /// A current that is limited is that which the controller asks for. A voltage drives the coil
 /// L i' + R i = v; with the bandwidth w of the current loop, v = L w (y - i) + R i where the
-/// controller asks for y.
+/// controller asks for y. Under both, the current is limited in the force that it makes, as by the
+/// bias: the current loop goes on.
 struct AmplifierLimits {
   double current_limit = 0.0;  ///< [A]; 0: none
   double voltage_limit = 0.0;  ///< [V]; 0: none

@@ -16,7 +16,7 @@ namespace {
 
 using namespace figures;
 
-constexpr std::size_t most_curves = 8;
+constexpr std::size_t most_steps = 8;
 
 /// Displacements after a step.
 Panel panel_of(const StepResponse& found, const char* title, const char* y, double factor,
@@ -27,7 +27,7 @@ Panel panel_of(const StepResponse& found, const char* title, const char* y, doub
   panel.x = {.title = "time [ms]", .first = 0.0, .last = 1e3 * found.times.back()};
   panel.y = {.title = y};
   std::vector<double> ends;
-  for (std::size_t i = 0; i < std::min(most_curves, found.steps.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most_steps, found.steps.size()); ++i) {
     const LoopStep& step = found.steps[i];
     Curve c{.name = step.label(), .paint = series_paint(i), .x = scaled(found.times, 1e3)};
     for (const double value : step.*response) c.y.push_back(factor * value);
@@ -53,8 +53,8 @@ std::vector<Figure> step_response_figures(const ResultView& result) {
                        &LoopStep::reference, &LoopStep::reference_end),
               panel_of(found, "of a force", "displacement over force [µm/N]", 1e6, &LoopStep::force,
                        &LoopStep::force_end)};
-  if (found.steps.size() > most_curves) {
-    f.notes.push_back(fmt::format("The first {} of {} loops.", most_curves, found.steps.size()));
+  if (found.steps.size() > most_steps) {
+    f.notes.push_back(fmt::format("The first {} of {} loops.", most_steps, found.steps.size()));
   }
   return {f};
 }

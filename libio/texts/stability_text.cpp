@@ -16,7 +16,8 @@ namespace {
 
 constexpr double grows = 1e-6;  ///< real part over size, beyond what rounding leaves of no damping
 constexpr double growing_decrement = -1e-5;
-constexpr int looked_at = 8;  ///< modes
+constexpr int looked_at = 8;         ///< modes
+constexpr int looked_at_loops = 80;  ///< of rotors with controllers, which reach far beyond
 
 bool is_unstable(const Modes& modes) {
   const auto is_growing = [](Complex lambda) { return lambda.real() > grows * std::abs(lambda); };
@@ -31,9 +32,12 @@ std::vector<std::string> unstable_notes(const Assembler& assembler, std::vector<
   std::sort(speeds.begin(), speeds.end());
   speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
   std::vector<std::string> unstable;
+  const bool has_loops = std::ranges::any_of(
+      assembler.structure().supports, [](const Support& support) { return support.sensors > 0; });
   for (const double Omega : speeds) {
     try {
-      if (!is_unstable(complex_modes(assembler, Omega, looked_at))) continue;
+      const int count = has_loops ? looked_at_loops : looked_at;
+      if (!is_unstable(complex_modes(assembler, Omega, count))) continue;
       unstable.push_back(shown_value(Omega, "rpm", ".0f"));
     } catch (const NumericalError&) {  // films carry nothing without speed
     }

@@ -8,6 +8,7 @@
 
 #include "libdyn/motions/run_model.hpp"
 #include "libdyn/motions/simulate.hpp"
+#include "libdyn/system/support_limits.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/saturated_magnet.hpp"

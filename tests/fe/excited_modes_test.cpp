@@ -71,7 +71,9 @@ TEST(ExcitedModes, OfAllShaftsComeShaftByShaft) {
   ASSERT_EQ(all.size(), first.size() + 2);
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(all[i].shaft, i < first.size() ? "shaft" : "hp");
-    if (i < first.size()) EXPECT_EQ(all[i].speed, first[i].speed);
+    if (i < first.size()) {
+      EXPECT_EQ(all[i].speed, first[i].speed);
+    }
   }
   CriticalOptions twice = options;
   twice.order = 2.0;

@@ -62,8 +62,10 @@ struct InMagneticBearing {
   Axis rates(const Axis& y, double load) const {
     const auto [u, v, q, i] = y;
     const double slope = filter > 0.0 ? filter * (u - q) : v;
-    const double asked = clamp(P * u + D * slope, limits.current_limit);
-    const double current = amplifier > 0.0 ? i : asked;
+    const bool has_voltage = limits.voltage_limit > 0.0;
+    const double asked = clamp(P * u + D * slope, has_voltage ? 0.0 : limits.current_limit);
+    const double made = clamp(i, has_voltage ? limits.current_limit : 0.0);
+    const double current = amplifier > 0.0 ? made : asked;
     double charge = amplifier * (asked - i);
     if (limits.voltage_limit > 0.0) {
       const double L = limits.inductance, R = limits.resistance;
@@ -100,12 +102,14 @@ struct InMagneticBearing {
 };
 
 /// One whose current is limited, one of them without amplifier and with an ideal derivative, and
-/// one whose voltage is.
+/// one whose voltage is, and one with both.
 inline std::vector<InMagneticBearing> saturated_magnets() {
-  InMagneticBearing of_current, ideal, of_voltage;
+  InMagneticBearing of_current, ideal, of_voltage, of_both;
   ideal.filter = ideal.amplifier = 0.0;
   of_voltage.limits = {.voltage_limit = 15.0, .inductance = 0.02, .resistance = 2.0};
-  return {of_current, ideal, of_voltage};
+  of_both.limits = of_voltage.limits;
+  of_both.limits.current_limit = 1.5;
+  return {of_current, ideal, of_voltage, of_both};
 }
 
 }  // namespace whirl::test

@@ -53,11 +53,6 @@ struct ControlLoop {
 };
 
 void check_limits(TableReader& table, const AmplifierLimits& limits, const LoopDynamics& loop) {
-  if (limits.current_limit > 0.0 && limits.voltage_limit > 0.0) {
-    table.problem("voltage_limit",
-                  "found current_limit too, expected one of both: a limited voltage keeps the "
-                  "current below voltage_limit / resistance");
-  }
   if (limits.voltage_limit > 0.0) {
     if (!(limits.inductance > 0.0)) table.missing("inductance", "of the coil, in H", {});
     if (!(loop.amplifier_bandwidth > 0.0)) {
