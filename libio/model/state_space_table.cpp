@@ -4,8 +4,10 @@
 
 #include <array>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
+#include "libio/model/matrix_market.hpp"
 #include "libio/text/delimited.hpp"
 
 namespace whirl::inline io {
@@ -61,10 +63,41 @@ void add_matrix_line(const std::vector<Cell>& cells, std::array<MatrixRows, 4>& 
   rows.push_back(std::move(row));
 }
 
+constexpr std::string_view states_comment = "% states";
+
+/// The parts of [A, B; C, D].
+StateSpaceTable parse_system_matrix(const std::string& text, const std::string& file,
+                                    std::vector<Problem>& problems) {
+  const std::size_t before = problems.size();
+  const Mat S(parse_matrix_market(text, file, problems));
+  if (problems.size() > before) return {};
+  Eigen::Index n = -1;
+  if (const std::size_t at = text.find(states_comment); at != std::string::npos) {
+    std::istringstream(text.substr(at + states_comment.size(), 20)) >> n;
+  }
+  if (n < 0 || n > S.rows() || n > S.cols()) {
+    problems.push_back({{file, 1, 1},
+                        "",
+                        fmt::format("a matrix [A, B; C, D] of {} x {} needs a comment that says "
+                                    "how many rows and columns A has, such as \"% states 2\"",
+                                    S.rows(), S.cols())});
+    return {};
+  }
+  const Eigen::Index rows = S.rows() - n, cols = S.cols() - n;
+  StateSpaceTable table;
+  if (rows > 0 && cols > 0) table.D = S.bottomRightCorner(rows, cols);
+  if (n == 0) return table;
+  table.A = S.topLeftCorner(n, n);
+  if (cols > 0) table.B = S.topRightCorner(n, cols);
+  if (rows > 0) table.C = S.bottomLeftCorner(rows, n);
+  return table;
+}
+
 }  // namespace
 
 StateSpaceTable parse_state_space_table(const std::string& text, const std::string& file,
                                         std::vector<Problem>& problems) {
+  if (text.starts_with("%%MatrixMarket")) return parse_system_matrix(text, file, problems);
   const std::size_t before = problems.size();
   std::array<MatrixRows, 4> all;
   std::istringstream lines(text);

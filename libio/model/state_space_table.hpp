@@ -25,7 +25,8 @@ struct StateSpaceTable {
 ///   D, 1e6
 ///
 /// Commas, semicolons, tabs or blanks stand between the cells; lines that begin with # are
-/// comments.
+/// comments. Or the matrix [A, B; C, D] in MatrixMarket's form, with a comment that says how many
+/// rows and columns A has: "% states 2".
 ///
 /// @param file      for messages
 /// @param problems  receives what is wrong, with its place

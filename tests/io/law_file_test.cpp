@@ -336,6 +336,10 @@ TEST_F(LawFile, StateSpacesOfFilesAreThoseOfTheModel) {
   EXPECT_EQ(support("state_space = \"file.h5#law\"\n").law, expected);
   write("file.csv", "# by hand\nA, -125, -1.25e6\nA, 1, 0\nB, 1\nB, 0\nC, 0, -2.5e11\nD, 1e6\n");
   EXPECT_EQ(support("state_space = \"file.csv\"\n").law, expected);
+  write("file.mtx",
+        "%%MatrixMarket matrix array real general\n% states 2\n3 3\n-125\n1\n0\n-1.25e6\n0\n"
+        "-2.5e11\n1\n0\n1e6\n");
+  EXPECT_EQ(support("state_space = \"file.mtx\"\n").law, expected);
 
   // what is stored says the same without the file
   const Model model = parse_model(machine + "state_space = \"file.mat\"\n", "model.toml", {},
@@ -406,6 +410,8 @@ TEST_F(LawFile, WrongFilesOfMatlabAndHdf5AreTold) {
   expect_problem("response = \"text.h5\"\n", "not an HDF5 file");
   expect_problem("state_space = \"text.uff\"\n", "a universal file has no state space");
   expect_problem("state_space = \"bad.mat\"\nD = [[1]]\n", "found two laws");
+  write("bad.mtx", "%%MatrixMarket matrix array real general\n1 1\n5\n");
+  expect_problem("state_space = \"bad.mtx\"\n", "% states 2");
   write("bad.csv", "A, 1, 2\nA, 1\nx, 3\n");
   EXPECT_THROW(support("state_space = \"bad.csv\"\n"), ModelError);
 }
