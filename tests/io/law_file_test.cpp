@@ -411,7 +411,7 @@ TEST_F(LawFile, WrongFilesOfMatlabAndHdf5AreTold) {
   expect_problem("state_space = \"text.uff\"\n", "a universal file has no state space");
   expect_problem("state_space = \"bad.mat\"\nD = [[1]]\n", "found two laws");
   write("bad.mtx", "%%MatrixMarket matrix array real general\n1 1\n5\n");
-  expect_problem("state_space = \"bad.mtx\"\n", "% states 2");
+  EXPECT_NE(problem("state_space = \"bad.mtx\"\n").find("% states 2"), std::string::npos);
   write("bad.csv", "A, 1, 2\nA, 1\nx, 3\n");
   EXPECT_THROW(support("state_space = \"bad.csv\"\n"), ModelError);
 }
