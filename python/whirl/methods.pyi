@@ -183,6 +183,7 @@ class Methods:
         /,
         *,
         frequencies: Optional[_Value] = ...,
+        steps: Optional[_Value] = ...,
         out: Optional[_Value] = ...,
         threads: Optional[_Value] = ...,
         units: Optional[_Value] = ...,

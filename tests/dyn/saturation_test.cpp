@@ -106,7 +106,7 @@ TEST(Saturation, MovesByRk4AsByTaylorSeries) {
     const Scene scene = rotor.scene();
     MotionState exact = rest(scene);
     test::run(scene, exact, 2, {.tolerance = 1e-13});
-    const double h = scene.contacts.period() / 40000.0;
+    const double h = scene.contacts.period() / 60000.0;
     std::vector<Trajectory> lanes(
         3, {.system = &scene.contacts, .state = rest(scene), .revolutions = 2});
     integrate_batch_rk4(lanes, {.fixed_step = h});
