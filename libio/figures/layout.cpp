@@ -234,18 +234,21 @@ void add_bearings(SideView& v) {
   }
 }
 
-/// Pitch circles of gears. The model does not give their width.
+/// Gears out to their pitch circles. The model does not give their width.
 void add_gears(SideView& v) {
   const double half = 0.5 * v.symbol();
   for (const GearPair& g : v.model.structure.gears) {
+    double top = 0.0, named = -1.0;
     for (const auto& [station, r] :
          {std::pair(&g.driving, g.driving_radius), std::pair(&g.driven, g.driven_radius)}) {
-      const double at = v.position(*station), radius = per_mm() * r;
+      const double at = v.position(*station), inner = v.shaft_radius(*station);
       if (at < 0.0) continue;
-      add_ring(v, "gear", Paint::disk, at, half, 0.9 * radius, 0.1 * radius,
+      const double height = std::max(per_mm() * r - inner, 0.1 * per_mm() * r);
+      add_ring(v, "gear", Paint::disk, at, half, inner, height,
                fmt::format("gear {}: pitch radius {}", g.name, format_length(r)));
-      v.add_name(at, radius, g.name, Paint::disk, false);
+      if (inner + height > top) top = inner + height, named = at;
     }
+    if (named >= 0.0) v.add_name(named, top, g.name, Paint::disk, false);
   }
 }
 

@@ -50,7 +50,7 @@ TEST_F(Sensitivities, TellStepResponses) {
   ASSERT_EQ(r["steps"].size(), 2u);
   EXPECT_EQ(r["times_s"].size(), 1001u);
   EXPECT_NEAR(r["steps"][0]["reference_end"].get<double>(), 2.0, 1e-12);
-  EXPECT_NEAR(r["steps"][1]["force_end"].get<double>(), 1e-6, 1e-15);
+  EXPECT_NEAR(r["steps"][1]["force_end_m_n"].get<double>(), 1e-6, 1e-15);
   EXPECT_EQ(r["steps"][0]["reference"].size(), 1001u);
   const Outcome plotted = whirl({"plot", "s.h5", "step_response"});
   EXPECT_EQ(plotted.status, 0) << plotted.err;
