@@ -106,6 +106,11 @@ LimitedCurrents limited_currents(const StateSpace& control, double bandwidth,
         "an amplifier with a bandwidth and a limit needs a derivative that ends: give "
         "derivative_bandwidth");
   }
+  if (limits.voltage_limit > 0.0 && !(has_amplifier && limits.inductance > 0.0)) {
+    throw NumericalError(
+        "a limit of voltage needs the inductance of the coil and the bandwidth of the current "
+        "loop");
+  }
   const Eigen::Index all = has_amplifier ? n + m : n;
   LimitedCurrents made;
   StateSpace& law = made.law;

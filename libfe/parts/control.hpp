@@ -129,7 +129,8 @@ struct LimitedCurrents {
 /// The currents i of amplifiers of first order, i' = w (y - i), that a controller asks for y; with
 /// limits. Forces of what is beyond a limit are told in amperes.
 /// @param bandwidth  w [rad/s]; 0: i = y
-/// @throws NumericalError  where an amplifier would need a rate of the displacement
+/// @throws NumericalError  where an amplifier would need a rate of the displacement, or a limit of
+///     voltage has no inductance or no bandwidth
 LimitedCurrents limited_currents(const StateSpace& control, double bandwidth,
                                  const AmplifierLimits& limits);
 

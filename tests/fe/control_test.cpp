@@ -91,4 +91,15 @@ TEST(Control, SeriesOfSeveralInputs) {
   EXPECT_LT((both.stiffness_at(s) - expected).norm(), 1e-14 * expected.norm());
 }
 
+// A voltage is asked for by a current loop over the coil; without either one there is none.
+TEST(Control, LimitsOfVoltageNeedCoilAndCurrentLoop) {
+  const StateSpace control = state_space(TransferFunction{{5.0}, {1.0, 7.0}});
+  AmplifierLimits limits;
+  limits.voltage_limit = 9.0;
+  EXPECT_THROW(limited_currents(control, 100.0, limits), NumericalError);
+  limits.inductance = 0.02;
+  EXPECT_THROW(limited_currents(control, 0.0, limits), NumericalError);
+  EXPECT_EQ(limited_currents(control, 100.0, limits).limits.size(), 1u);
+}
+
 }  // namespace whirl::control_test

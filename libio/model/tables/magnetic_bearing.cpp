@@ -52,17 +52,27 @@ struct ControlLoop {
   AmplifierLimits limits;
 };
 
-void check_limits(TableReader& table, const AmplifierLimits& limits, const LoopDynamics& loop) {
+/// Whether what the limits need is there, and nothing else; what is wrong is reported.
+bool has_what_limits_need(TableReader& table, const AmplifierLimits& limits,
+                          const LoopDynamics& loop) {
+  bool good = true;
   if (limits.voltage_limit > 0.0) {
-    if (!(limits.inductance > 0.0)) table.missing("inductance", "of the coil, in H", {});
+    if (!(limits.inductance > 0.0)) {
+      table.missing("inductance", "of the coil, in H", {});
+      good = false;
+    }
     if (!(loop.amplifier_bandwidth > 0.0)) {
       table.missing("amplifier_bandwidth", "of the current loop, which asks for the voltage", {});
+      good = false;
     }
   } else {
     for (const char* key : {"inductance", "resistance"}) {
-      if (table.has(key)) table.problem(key, "is needed under voltage_limit only; leave it out");
+      if (!table.has(key)) continue;
+      table.problem(key, "is needed under voltage_limit only; leave it out");
+      good = false;
     }
   }
+  return good;
 }
 
 /// The law from displacements of the sensors to currents [A/m]; nothing: it is wrong, which is
@@ -75,7 +85,7 @@ std::optional<ControlLoop> read_control(ModelReading& reading, TableReader& tabl
   LoopDynamics loop;
   table.read(loop);
   table.read(made.limits);
-  check_limits(table, made.limits, loop);
+  const bool limits_are_complete = has_what_limits_need(table, made.limits, loop);
   if (made.limits.any()) made.amplifier = std::exchange(loop.amplifier_bandwidth, 0.0);
   table.at_most("pade_order", loop.pade_order, most_pade_order);
   const bool has_pid =
@@ -98,7 +108,7 @@ std::optional<ControlLoop> read_control(ModelReading& reading, TableReader& tabl
                   "denominator, poles and residues, A, B, C and D, or a state_space",
                   {"derivative", "numerator", "poles", "A", "state_space"});
   }
-  if (!has_pid && !law) return std::nullopt;
+  if ((!has_pid && !law) || !limits_are_complete) return std::nullopt;
   try {
     if (law && !table.has("numerator")) {
       made.control = in_series(*law, chain(functions).repeated(law->outputs()));
