@@ -133,14 +133,14 @@ void sample_contact(const Samples& by, const ReducedContact& c, const Periodic& 
                     const GaussRule& gauss, std::vector<PortSample>& samples) {
   constexpr int P = Samples::ports;
   using D = typename Samples::D;
-  const ContactPath path(c, motion);
+  const PeriodicContact path(c, motion);
   const auto push_at = [&](double theta) {
     return by.push_at(c, motion.phase(theta), motion.at(theta));
   };
-  const auto add = [&](const ContactPath::Span& span, double theta, double share) {
+  const auto add = [&](const PeriodicContact::Span& span, double theta, double share) {
     samples.push_back(by.sample(by.force(c, push_at(theta), span.sign), theta, share));
   };
-  for (const ContactPath::Span& span : path.spans()) {
+  for (const PeriodicContact::Span& span : path.spans()) {
     if (span.is_whole()) {
       const int N = even_instants(motion, per_harmonic);
       for (int i = 0; i < N; ++i) add(span, turn * i / N, 1.0 / N);
@@ -319,8 +319,8 @@ std::vector<ContactMeasure> measures_on(const ContactSystem& system, const Perio
     ContactMeasure& m = all[owner];
     m.name = c.name;
     const Periodic ports = path_of(c, motion);
-    const ContactPath path(c, ports);
-    for (const ContactPath::Span& span : path.spans()) {
+    const PeriodicContact path(c, ports);
+    for (const PeriodicContact::Span& span : path.spans()) {
       touching[owner].emplace_back(span.from, span.to);
       // a force that begins beyond the surface presses again, and the contact has not come to touch
       const bool is_beyond = path.at(span.from).depth > same_surface * c.clearance;
@@ -364,8 +364,8 @@ std::string sticks_on(const ContactSystem& system, const Periodic& motion) {
     const ReducedContact& c = contacts[i];
     if (!c.friction.is_exact()) continue;
     const Periodic ports = path_of(c, motion);
-    const ContactPath path(c, ports);
-    for (const ContactPath::Span& span : path.spans()) {
+    const PeriodicContact path(c, ports);
+    for (const PeriodicContact::Span& span : path.spans()) {
       if (span.begins) continue;  // it does not begin with a reversal
       if (span.is_whole()) continue;
       const auto [x, rate] = motion.at(span.from);

@@ -17,7 +17,7 @@ constexpr double sharpest = 1e-15;      ///< of a turn: how well events are know
 
 }  // namespace
 
-ContactPath::ContactPath(const ReducedContact& contact, const Periodic& motion)
+PeriodicContact::PeriodicContact(const ReducedContact& contact, const Periodic& motion)
     : contact_(contact), motion_(motion) {
   const double turns = turning_ratio_of(contact.geometry) * motion.period;
   closes_ = std::abs(turns - std::round(turns)) < whole;
@@ -30,14 +30,14 @@ ContactPath::ContactPath(const ReducedContact& contact, const Periodic& motion)
   }
 }
 
-ContactForces ContactPath::at(double theta) const {
+ContactForces PeriodicContact::at(double theta) const {
   const auto [u, rate] = motion_.at(theta);
   const Vec2 d = u.head<2>() - contact_.offset;
   return kinematics(contact_, motion_.phase(theta),
                     {{d(0), d(1)}, {rate(0), rate(1)}, {rate.tail<2>()(0), rate.tail<2>()(1)}});
 }
 
-double ContactPath::gap(const ContactForces& f) const {
+double PeriodicContact::gap(const ContactForces& f) const {
   if (const auto factor = rate_factor(contact_.law, f.rate)) {
     return std::min(f.depth, *factor * contact_.clearance);
   }
@@ -45,8 +45,8 @@ double ContactPath::gap(const ContactForces& f) const {
   return std::min(f.depth, f.normal / stiffness_);
 }
 
-std::vector<double> ContactPath::zeros(const std::function<double(const ContactForces&)>& f,
-                                       bool looks_between) const {
+std::vector<double> PeriodicContact::zeros(const std::function<double(const ContactForces&)>& f,
+                                           bool looks_between) const {
   const auto value = [&](double theta) { return f(at(theta)); };
   std::vector<double> found;
   const auto add = [&](double a, double fa, double b, double fb) {
@@ -82,7 +82,7 @@ std::vector<double> ContactPath::zeros(const std::function<double(const ContactF
 }
 
 /// Spans of what does not close, each from an event or the beginning to an event or the end.
-std::vector<ContactPath::Span> ContactPath::spans_between(
+std::vector<PeriodicContact::Span> PeriodicContact::spans_between(
     const std::vector<double>& touches) const {
   std::vector<Span> spans;
   double from = 0.0;
@@ -97,7 +97,7 @@ std::vector<ContactPath::Span> ContactPath::spans_between(
   return spans;
 }
 
-std::vector<ContactPath::Span> ContactPath::spans() const {
+std::vector<PeriodicContact::Span> PeriodicContact::spans() const {
   const std::vector<double> touches = zeros([this](const auto& f) { return gap(f); }, true);
   std::vector<double> reversals;
   if (contact_.friction.is_exact()) {

@@ -11,10 +11,11 @@ namespace whirl::inline dyn {
 
 /// A contact on the motion that closes it; two more rows are the motion where friction acts
 /// elsewhere.
-class ContactPath {
+class PeriodicContact {
  public:
-  /// @param motion  2 rows, or 4 of a contact that rubs apart; both must live as long as the path
-  ContactPath(const ReducedContact& contact, const Periodic& motion);
+  /// @param motion  2 rows, or 4 of a contact that rubs apart; both must live as long as the
+  /// contact
+  PeriodicContact(const ReducedContact& contact, const Periodic& motion);
 
   /// A stretch of touching, without an event inside.
   struct Span {

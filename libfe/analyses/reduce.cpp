@@ -91,6 +91,7 @@ struct ShapesOf {
   }
   /// Shapes of the structure, over all coordinates.
   Mat in_all(const Mat& shapes) const {
+    if (shapes.cols() == 0) return Mat(M.rows() + parts.states.cols(), 0);
     return parts.has_states() ? Mat(parts.structure * shapes) : shapes;
   }
   /// And one of each state.

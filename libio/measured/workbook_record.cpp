@@ -14,16 +14,16 @@ namespace whirl::inline io {
 namespace {
 
 /// The text of a sheet with tabs between its cells.
-std::string tabbed(const Sheet& sheet) {
+std::string tabbed(const WorkbookSheet& sheet) {
   std::string text = sheet.text;
   std::ranges::replace(text, cell_mark, '\t');
   return text;
 }
 
 /// Names of sheets for a message: "\"Run 1\", \"Run 2\"".
-std::string names_of(const std::vector<Sheet>& sheets) {
+std::string names_of(const std::vector<WorkbookSheet>& sheets) {
   std::string names;
-  for (const Sheet& sheet : sheets) {
+  for (const WorkbookSheet& sheet : sheets) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", in_quotes(sheet.name));
   }
   return names;
@@ -41,8 +41,8 @@ RawRecord read_workbook_record(const std::filesystem::path& path) {
   }
   const auto sheets = sheets_of(bytes);
   if (!sheets) throw ModelError({path.string()}, "", sheets.problem);
-  std::vector<Sheet> with_numbers;
-  for (const Sheet& sheet : *sheets) {
+  std::vector<WorkbookSheet> with_numbers;
+  for (const WorkbookSheet& sheet : *sheets) {
     if (!sheet.is_hidden && has_csv_numbers(tabbed(sheet))) with_numbers.push_back(sheet);
   }
   if (with_numbers.size() == 1) {

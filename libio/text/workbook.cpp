@@ -291,13 +291,13 @@ std::map<std::string, std::string, std::less<>> parts_by_id(const Archive& archi
   return parts;
 }
 
-std::vector<Sheet> all_sheets(const std::string& bytes) {
+std::vector<WorkbookSheet> all_sheets(const std::string& bytes) {
   const Archive archive(bytes);
   const auto parts = parts_by_id(archive);
   const std::string name = "xl/workbook.xml";
   const pugi::xml_document document = needed_part(archive, name);
   const std::vector<std::string> texts = shared_texts(archive);
-  std::vector<Sheet> sheets;
+  std::vector<WorkbookSheet> sheets;
   for_each_child(child_of(child_of(document, "workbook"), "sheets"), "sheet",
                  [&](const pugi::xml_node& node) {
                    const auto found = parts.find(attribute_of(node, "id"));
@@ -315,12 +315,12 @@ std::vector<Sheet> all_sheets(const std::string& bytes) {
 }
 
 /// A sheet without what is outside of a range; places stay.
-Parsed<Sheet> cut(Sheet sheet, const std::string& range) {
+Parsed<WorkbookSheet> cut(WorkbookSheet sheet, const std::string& range) {
   const auto colon = range.find(':');
   const auto from = place_in(range.substr(0, colon));
   const auto to = colon == std::string::npos ? std::nullopt : place_in(range.substr(colon + 1));
   if (!from || !to || to->row < from->row || to->column < from->column) {
-    return Parsed<Sheet>::failed(
+    return Parsed<WorkbookSheet>::failed(
         fmt::format("found the range {}, expected one such as B4:H25", in_quotes(range)));
   }
   std::istringstream lines(sheet.text);
@@ -342,7 +342,7 @@ Parsed<Sheet> cut(Sheet sheet, const std::string& range) {
 }
 
 /// How many columns the best line of a sheet names.
-std::size_t most_named(const Sheet& sheet,
+std::size_t most_named(const WorkbookSheet& sheet,
                        const std::function<std::size_t(const std::string&)>& columns_in) {
   constexpr int most_lines = 1000;  // of titles above a table
   std::istringstream lines(sheet.text);
@@ -354,9 +354,9 @@ std::size_t most_named(const Sheet& sheet,
   return most;
 }
 
-std::string names_of(const std::vector<const Sheet*>& sheets) {
+std::string names_of(const std::vector<const WorkbookSheet*>& sheets) {
   std::vector<std::string> names;
-  for (const Sheet* sheet : sheets) names.push_back(in_quotes(sheet->name));
+  for (const WorkbookSheet* sheet : sheets) names.push_back(in_quotes(sheet->name));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -383,22 +383,22 @@ bool is_workbook(const std::string& bytes) {
   return bytes.starts_with("PK\x03\x04");
 }
 
-Parsed<std::vector<Sheet>> sheets_of(const std::string& bytes) {
+Parsed<std::vector<WorkbookSheet>> sheets_of(const std::string& bytes) {
   try {
     return all_sheets(bytes);
   } catch (const WrongWorkbook& wrong) {
-    return Parsed<std::vector<Sheet>>::failed(wrong.problem);
+    return Parsed<std::vector<WorkbookSheet>>::failed(wrong.problem);
   }
 }
 
-Parsed<Sheet> sheet_of(const std::string& bytes, const SheetName& name,
-                       const std::function<std::size_t(const std::string&)>& columns_in) {
-  using Result = Parsed<Sheet>;
+Parsed<WorkbookSheet> sheet_of(const std::string& bytes, const SheetName& name,
+                               const std::function<std::size_t(const std::string&)>& columns_in) {
+  using Result = Parsed<WorkbookSheet>;
   auto sheets = sheets_of(bytes);
   if (!sheets) return Result::failed(sheets.problem);
-  std::vector<const Sheet*> visible, best;
+  std::vector<const WorkbookSheet*> visible, best;
   std::size_t most = 2;  // a table has so many columns
-  for (const Sheet& sheet : *sheets) {
+  for (const WorkbookSheet& sheet : *sheets) {
     if (!name.sheet.empty() && sheet.name == name.sheet) {
       return name.range.empty() ? sheet : cut(sheet, name.range);
     }

@@ -13,7 +13,7 @@ namespace whirl::inline io {
 
 /// A sheet. Line i of the text is its row i, cells stand between marks (cell_mark of
 /// delimited.hpp), so that lines and places of problems are rows and columns.
-struct Sheet {
+struct WorkbookSheet {
   std::string name;
   std::string text;
   bool is_hidden = false;
@@ -38,14 +38,14 @@ bool is_workbook(const std::string& bytes);
 /// several lines becomes one.
 ///
 /// @return  or what is wrong with the file
-Parsed<std::vector<Sheet>> sheets_of(const std::string& bytes);
+Parsed<std::vector<WorkbookSheet>> sheets_of(const std::string& bytes);
 
 /// The sheet that a name says, or the visible one that has such a table.
 ///
 /// @param columns_in  how many columns of the table a line names
 /// @return            or what is wrong: several sheets have one, or none
-Parsed<Sheet> sheet_of(const std::string& bytes, const SheetName& name,
-                       const std::function<std::size_t(const std::string&)>& columns_in);
+Parsed<WorkbookSheet> sheet_of(const std::string& bytes, const SheetName& name,
+                               const std::function<std::size_t(const std::string&)>& columns_in);
 
 /// A place in a sheet by the name of its cell, "rotor.xlsx#Stations!C7"; others as they are.
 Where with_cell_name(Where where);

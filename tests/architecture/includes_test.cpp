@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <string>
 #include <vector>
@@ -185,6 +186,26 @@ TEST(Architecture, ALibraryDeclaresInItsNamespaceOrInOneBelow) {
     }
   }
   EXPECT_GT(found, 400u);
+}
+
+// Two types of one name in a namespace are one to the linker: it takes functions of either for
+// both, and no compiler says so, since no file includes both headers.
+TEST(Architecture, NoTwoHeadersDefineATypeOfOneName) {
+  const std::regex opened(R"(^((?:namespace whirl|struct|class|enum class)\b[^;]*\{))");
+  const std::regex type(R"(^(?:struct|class|enum class) (\w+))");
+  std::map<std::string, std::string> homes;  // of names with their namespaces
+  for (const auto& own : namespaces) {
+    std::string space;
+    for (const auto& [file, line] : lines_in(own.first, opened)) {
+      std::smatch name;
+      if (line.starts_with("namespace")) space = line;
+      if (!file.ends_with(".hpp") || !std::regex_search(line, name, type)) continue;
+      const auto [home, is_new] = homes.try_emplace(space + ' ' + name[1].str(), file);
+      EXPECT_TRUE(is_new || home->second == file)
+          << name[1] << " of " << file << " is also in " << home->second;
+    }
+  }
+  EXPECT_GT(homes.size(), 500u);
 }
 
 // What stands where in a state, StateLayout says. Orders of orbits and halves of periods are

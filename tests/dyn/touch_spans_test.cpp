@@ -29,9 +29,9 @@ Periodic motion_of(const ContactSystem& system, const Vec2& mean, const Vec2& co
 }
 
 /// Its spans; none lies between two copies of one event.
-std::vector<ContactPath::Span> spans_of(const ContactSystem& system, const Periodic& motion) {
-  std::vector<ContactPath::Span> spans;
-  for (const auto& span : ContactPath(system.contacts()[0], motion).spans()) {
+std::vector<PeriodicContact::Span> spans_of(const ContactSystem& system, const Periodic& motion) {
+  std::vector<PeriodicContact::Span> spans;
+  for (const auto& span : PeriodicContact(system.contacts()[0], motion).spans()) {
     EXPECT_GE(span.from, 0.0);
     EXPECT_LT(span.from, 2.0 * pi);
     EXPECT_LE(span.to - span.from, 2.0 * pi);
@@ -155,7 +155,7 @@ TEST(TouchSpans, KnowTheContactAtAnAngle) {
   const double A = 1.5e-3;
   for (const int period : {1, 3}) {
     const Periodic motion = motion_of(scene.contacts, p.offset, {A, 0.0}, {0.0, A}, period);
-    const ContactPath path(scene.contacts.contacts()[0], motion);
+    const PeriodicContact path(scene.contacts.contacts()[0], motion);
     for (const double theta : {0.0, 1.0, 4.0}) {
       const ContactForces f = path.at(theta);
       EXPECT_NEAR(f.n(0), std::cos(theta), of_forces);
