@@ -10,30 +10,13 @@
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/statistics.hpp"
 #include "libdata/measured/order_fit.hpp"
+#include "libdata/measured/turned_samples.hpp"
 
 namespace whirl::inline data {
 
 namespace {
 
 constexpr double samples_per_unknown = 2.0;  ///< that a point has at least
-
-/// Angles of the rotor at the samples between the first pulse and the last.
-struct TurnedSamples {
-  Eigen::Index first = 0;  ///< number of the first one in the record
-  Vec angle;               ///< [rad]
-};
-
-TurnedSamples turned_samples(const ProbeReadings& readings) {
-  const TurnClock& clock = *readings.clock;
-  const auto sample = [&](double t) { return (t - readings.start) * readings.rate; };
-  TurnedSamples turned{static_cast<Eigen::Index>(std::ceil(sample(clock.first()) - 1e-9)), {}};
-  const auto last = static_cast<Eigen::Index>(std::floor(sample(clock.last()) + 1e-9));
-  turned.angle.resize(std::max<Eigen::Index>(0, last - turned.first + 1));
-  for (Eigen::Index j = 0; j < turned.angle.size(); ++j) {
-    turned.angle(j) = clock.angle(readings.time(turned.first + j));
-  }
-  return turned;
-}
 
 /// Revolutions from a point to the next.
 /// @param all  revolutions of the record
@@ -101,7 +84,7 @@ double noise_of(const CVec& response, Eigen::Index apart) {
 }  // namespace
 
 OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& options) {
-  const TurnedSamples turned = turned_samples(readings);
+  const TurnedSamples turned = turned_samples(readings, *readings.clock);
   const double width = turn * options.revolutions;
   const Eigen::Index n = turned.angle.size();
   const double turned_by = n > 0 ? turned.angle(n - 1) - turned.angle(0) : 0.0;

@@ -9,6 +9,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/spectrum.hpp"
 #include "libdata/measured/order_fit.hpp"
+#include "libdata/measured/turned_samples.hpp"
 
 namespace whirl::inline data {
 
@@ -59,13 +60,7 @@ double median(const Vec& values) {
 
 Trend trend_of(const ProbeReadings& readings, const TrendOptions& options) {
   const TurnClock clock = clock_of(readings, options.speed);
-  const auto sample = [&](double t) { return (t - readings.start) * readings.rate; };
-  const auto first = static_cast<Eigen::Index>(std::ceil(sample(clock.first()) - 1e-9));
-  const auto last =
-      std::min<Eigen::Index>(readings.displacement.rows() - 1,
-                             static_cast<Eigen::Index>(std::floor(sample(clock.last()) + 1e-9)));
-  Vec angle(std::max<Eigen::Index>(0, last - first + 1));
-  for (Eigen::Index j = 0; j < angle.size(); ++j) angle(j) = clock.angle(readings.time(first + j));
+  const auto [first, angle] = turned_samples(readings, clock);
   const double all = angle.size() > 0 ? (angle(angle.size() - 1) - angle(0)) / turn : 0.0;
   if (all < options.revolutions) {
     throw OptionError(

@@ -14,6 +14,7 @@
 #include "libdata/measured/measured_identification.hpp"
 #include "libdata/measured/order_tracking.hpp"
 #include "libdata/measured/station_motion.hpp"
+#include "libdata/measured/turned_samples.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::measured_test {
@@ -379,6 +380,20 @@ struct RunUp {
     return r;
   }
 };
+
+// Pulses may lie before the first sample and behind the last one.
+TEST(OrderTracking, TurnsSamplesOfTheRecordOnly) {
+  ProbeReadings readings{.rate = 10.0, .displacement = Mat::Zero(40, 1)};
+  const TurnClock beyond({-1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0}, KeyPhasor{}, readings.notes);
+  const TurnedSamples all = turned_samples(readings, beyond);
+  EXPECT_EQ(all.first, 0);
+  EXPECT_EQ(all.angle.size(), 40);
+  const TurnClock within({0.5, 1.5, 2.5}, KeyPhasor{}, readings.notes);
+  const TurnedSamples some = turned_samples(readings, within);
+  EXPECT_EQ(some.first, 5);
+  ASSERT_EQ(some.angle.size(), 21);
+  EXPECT_NEAR(some.angle(20) - some.angle(0), 4.0 * pi, 1e-12);
+}
 
 // Orders that do not change along a run-up are found exactly, whatever their number, as the least
 // squares know them all.
