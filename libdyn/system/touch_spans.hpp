@@ -13,8 +13,8 @@ namespace whirl::inline dyn {
 /// elsewhere.
 class PeriodicContact {
  public:
-  /// @param motion  2 rows, or 4 of a contact that rubs apart; both must live as long as the
-  /// contact
+  /// @param contact  must live on, as must the motion
+  /// @param motion   2 rows, or 4 of a contact that rubs apart
   PeriodicContact(const ReducedContact& contact, const Periodic& motion);
 
   /// A stretch of touching, without an event inside.

@@ -91,7 +91,6 @@ struct ShapesOf {
   }
   /// Shapes of the structure, over all coordinates.
   Mat in_all(const Mat& shapes) const {
-    if (shapes.cols() == 0) return Mat(M.rows() + parts.states.cols(), 0);
     return parts.has_states() ? Mat(parts.structure * shapes) : shapes;
   }
   /// And one of each state.
@@ -170,7 +169,7 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   const int most = how.modes > 0 ? how.modes : std::min(n, largest_basis);
   double band = how.band > 0.0 ? how.band : 2.0 * std::abs(system.Omega);
 
-  RealModes real;
+  RealModes real{.Phi = Mat(shapes.size(), 0)};
   Modes damped;
   Mat residual(shapes.size(), 0);
   if (method == ReductionMethod::damped) {

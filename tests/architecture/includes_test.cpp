@@ -188,8 +188,8 @@ TEST(Architecture, ALibraryDeclaresInItsNamespaceOrInOneBelow) {
   EXPECT_GT(found, 400u);
 }
 
-// Two types of one name in a namespace are one to the linker: it takes functions of either for
-// both, and no compiler says so, since no file includes both headers.
+// To the linker two types of one name in a namespace are one: it takes the functions of either for
+// both. No compiler tells it where no file includes both headers.
 TEST(Architecture, NoTwoHeadersDefineATypeOfOneName) {
   const std::regex opened(R"(^((?:namespace whirl|struct|class|enum class)\b[^;]*\{))");
   const std::regex type(R"(^(?:struct|class|enum class) (\w+))");

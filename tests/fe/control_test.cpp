@@ -91,7 +91,7 @@ TEST(Control, SeriesOfSeveralInputs) {
   EXPECT_LT((both.stiffness_at(s) - expected).norm(), 1e-14 * expected.norm());
 }
 
-// A voltage is asked for by a current loop over the coil; without either one there is none.
+// A limit of voltage needs the inductance of the coil and the bandwidth of the current loop.
 TEST(Control, LimitsOfVoltageNeedCoilAndCurrentLoop) {
   const StateSpace control = state_space(TransferFunction{{5.0}, {1.0, 7.0}});
   AmplifierLimits limits;

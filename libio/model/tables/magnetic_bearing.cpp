@@ -52,27 +52,20 @@ struct ControlLoop {
   AmplifierLimits limits;
 };
 
-/// Whether what the limits need is there, and nothing else; what is wrong is reported.
+/// Whether a limit of voltage has what it needs; what is missing or too much is reported.
 bool has_what_limits_need(TableReader& table, const AmplifierLimits& limits,
                           const LoopDynamics& loop) {
-  bool good = true;
-  if (limits.voltage_limit > 0.0) {
-    if (!(limits.inductance > 0.0)) {
-      table.missing("inductance", "of the coil, in H", {});
-      good = false;
-    }
-    if (!(loop.amplifier_bandwidth > 0.0)) {
-      table.missing("amplifier_bandwidth", "of the current loop, which asks for the voltage", {});
-      good = false;
-    }
-  } else {
-    for (const char* key : {"inductance", "resistance"}) {
-      if (!table.has(key)) continue;
-      table.problem(key, "is needed under voltage_limit only; leave it out");
-      good = false;
-    }
+  const bool limits_voltage = limits.voltage_limit > 0.0;
+  const bool has_coil = limits.inductance > 0.0, has_loop = loop.amplifier_bandwidth > 0.0;
+  if (limits_voltage && !has_coil) table.missing("inductance", "of the coil, in H", {});
+  if (limits_voltage && !has_loop) {
+    table.missing("amplifier_bandwidth", "of the current loop, which asks for the voltage", {});
   }
-  return good;
+  for (const char* key : {"inductance", "resistance"}) {
+    if (limits_voltage || !table.has(key)) continue;
+    table.problem(key, "is needed under voltage_limit only; leave it out");
+  }
+  return !limits_voltage || (has_coil && has_loop);
 }
 
 /// The law from displacements of the sensors to currents [A/m]; nothing: it is wrong, which is
