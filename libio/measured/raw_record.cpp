@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "libbase/numerics/constants.hpp"
@@ -200,6 +201,18 @@ void count_from_first(RawRecord& raw) {
   raw.start = 0.0;
 }
 
+/// Checks that the times of neighboring samples differ by more than their rounding.
+void require_times_apart(const RawRecord& raw) {
+  constexpr double least = 8.0 * std::numeric_limits<double>::epsilon();
+  const double step = 1.0 / *raw.rate;
+  const double length = static_cast<double>(raw.channels.front().samples.size()) * step;
+  if (step > least * std::max(std::abs(raw.start), std::abs(raw.start + length))) return;
+  throw ModelError({raw.file}, "",
+                   fmt::format("begins at {:.6g} s and says {:.6g} samples per second: times of "
+                               "neighbors are the same number; mend the start or the rate",
+                               raw.start, *raw.rate));
+}
+
 /// Channels in m and V as one matrix.
 MeasuredRecord as_record(RawRecord raw) {
   MeasuredRecord record{.rate = *raw.rate,
@@ -237,6 +250,7 @@ MeasuredRecord finished_part(RawRecord raw, std::optional<double> rate) {
   number_channels(raw.channels);
   take_rate(raw, rate);
   count_from_first(raw);
+  require_times_apart(raw);
   return as_record(std::move(raw));
 }
 

@@ -324,6 +324,9 @@ TEST_F(TdmsRecord, KeepsRatesAndStartsApart) {
   unknown.properties = {{"wf_increment", "", 2.0}, {"wf_xunit_string", "Hz"}};
   expect_problem(segment(all, head_of({unknown}), samples<std::int8_t>({1, 2})),
                  "its samples are in steps of \"Hz\", expected steps of time");
+  // steps below the rounding of the start
+  expect_problem(segment(all, head_of({at("x", 5e-23, 0.5, 2)}), samples<std::int8_t>({1, 2})),
+                 "times of neighbors are the same number");
   // milliseconds
   unknown.properties = {{"wf_increment", "", 2.0}, {"wf_xunit_string", "ms"}};
   EXPECT_NEAR(read(segment(all, head_of({unknown}), samples<std::int8_t>({1, 2}))).rate, 500.0,

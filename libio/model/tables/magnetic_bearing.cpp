@@ -57,9 +57,11 @@ bool has_what_limits_need(TableReader& table, const AmplifierLimits& limits,
                           const LoopDynamics& loop) {
   const bool limits_voltage = limits.voltage_limit > 0.0;
   const bool has_coil = limits.inductance > 0.0, has_loop = loop.amplifier_bandwidth > 0.0;
-  if (limits_voltage && !has_coil) table.missing("inductance", "of the coil, in H", {});
+  if (limits_voltage && !has_coil)
+    table.missing("inductance", "the inductance of the coil, in H", {});
   if (limits_voltage && !has_loop) {
-    table.missing("amplifier_bandwidth", "of the current loop, which asks for the voltage", {});
+    table.missing("amplifier_bandwidth",
+                  "the bandwidth of the current loop, which asks for the voltage", {});
   }
   for (const char* key : {"inductance", "resistance"}) {
     if (limits_voltage || !table.has(key)) continue;
